@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/elasticity.hpp>
-#include <plica/drivers/solver/set_up/build_level.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/drivers/elastic/elasticity.hpp>
+#include <plica/drivers/level/build_level.hpp>
+#include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
-#include <plica/kernels/explicit/updates.hpp>
-#include <plica/kernels/implicit/system_kernels.hpp>
+#include <plica/kernels/linear/system_kernels.hpp>
 #include <plica/kernels/materials/list.hpp>
+#include <plica/kernels/time/updates.hpp>
 
 #include "beam.hpp"
 #include "case.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
-#include <plica/drivers/solver/set_up/build_patches.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
+#include <plica/drivers/elastic/build_patches.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/linear/krylov.hpp>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/linear/krylov.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/kernels/materials/list.hpp>
 
 #include "case.hpp"

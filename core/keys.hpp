@@ -19,7 +19,7 @@ struct Choice {
 /// Their names alone, in the same order.
 std::vector<std::string> names(const std::vector<Choice>& choices);
 
-/// The families that names come from. Each walks its own list (drivers/solver/registry.cpp).
+/// The families that names come from. Each walks its own list (drivers/run/registry.cpp).
 std::vector<Choice> materials();          ///< constitutive laws
 std::vector<Choice> volumes();            ///< what laws of tissue have for the volume
 std::vector<Choice> ogden_conventions();  ///< of the mu in Ogden's terms

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <plica/core/mesh.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/core/to_device.hpp>
 #include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/drivers/elastic/build_patches.hpp>
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <string>
 #include <vector>
 

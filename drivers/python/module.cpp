@@ -22,9 +22,9 @@
 #include <plica/drivers/app/report/report.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
-#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/version.hpp>
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <string>
 #include <vector>
 

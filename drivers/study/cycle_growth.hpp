@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <utility>
 #include <vector>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/energy_meter.hpp>
+#include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
 #include <plica/drivers/study/cycle_trial.hpp>
 
 namespace plica {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <stdexcept>
 

@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/eigenvalues.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <vector>

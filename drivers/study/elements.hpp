@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/elastic/elements.hpp>
 #include <string>
 #include <utility>
 #include <vector>

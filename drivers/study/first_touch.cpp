@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <plica/drivers/solver/courses.hpp>
-#include <plica/drivers/solver/him/advice.hpp>
-#include <plica/drivers/solver/set_up/initial_state.hpp>
-#include <plica/drivers/solver/turning.hpp>
+#include <plica/core/time_functions.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/contact/turning.hpp>
+#include <plica/drivers/cycles/him/advice.hpp>
 #include <plica/drivers/study/first_touch.hpp>
-#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {

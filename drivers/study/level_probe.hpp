@@ -2,9 +2,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
-#include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/diagnose.hpp>
 #include <vector>
 
 namespace plica {

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <iterator>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/kernels/materials/list.hpp>

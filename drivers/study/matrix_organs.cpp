@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/generators.hpp>
 #include <random>
 #include <string>

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <random>
 

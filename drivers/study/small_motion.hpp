@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/run/build_hierarchy.hpp>
 
 namespace plica {
 

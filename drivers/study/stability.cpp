@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <plica/drivers/study/stability.hpp>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
 namespace plica {

@@ -6,10 +6,9 @@
 #include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/methods/integrators.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <random>

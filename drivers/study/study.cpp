@@ -5,7 +5,7 @@
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
 #include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/study.hpp>

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/plan_steps.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/cycles/plan_steps.hpp>
+#include <plica/drivers/methods/integrators.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/study_case.hpp>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/solver/steppers.hpp>
+#include <plica/drivers/methods/integrators.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/steppers.hpp>
+#include <plica/drivers/run/validate.hpp>
+#include <plica/drivers/spaces/coarse_spaces.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <tuple>
 

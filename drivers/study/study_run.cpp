@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/study_run.hpp>
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/limit.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/drivers/study/trajectory.hpp>

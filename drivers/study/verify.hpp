@@ -2,7 +2,6 @@
 #pragma once
 #include <functional>
 #include <optional>
-#include <plica/drivers/solver/registry.hpp>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/pack.hpp>
 #include <plica/core/small.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // The hierarchical inverse mass, level by level.

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/inlining.hpp>
 #include <plica/kernels/linear/packed_rows.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 
 // Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal
 // polynomial smoothers for multigrid V-cycles, 2022, arXiv:2202.08830, alg. 1): they need the

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/version.hpp>
 

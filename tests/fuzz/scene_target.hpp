@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/app/scene/load_scene.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <string>
 
 #include "target.hpp"

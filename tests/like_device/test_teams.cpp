@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "any_order.hpp"
 
-#include <plica/drivers/solver/linear/block_pattern.hpp>
-#include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
+#include <plica/drivers/elastic/build_nodal_rows.hpp>
+#include <plica/drivers/linear/block_pattern.hpp>
 #include <plica/kernels/elastic/elastic_blocks.hpp>
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/elastic_stress.hpp>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <string>
 

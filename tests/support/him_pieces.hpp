@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/him/him_stepper.hpp>
-#include <plica/drivers/solver/largest_eigenvalue.hpp>
-#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
-#include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
+#include <plica/drivers/cycles/him/him_stepper.hpp>
+#include <plica/drivers/elastic/largest_eigenvalue.hpp>
+#include <plica/drivers/spaces/coarse_spaces.hpp>
+#include <plica/drivers/spaces/coarse_stiffness.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 

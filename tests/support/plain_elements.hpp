@@ -4,8 +4,8 @@
 
 #include <Eigen/LU>
 #include <functional>
-#include <plica/drivers/solver/set_up/build_patches.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/elastic/build_patches.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/meshes/generators.hpp>
 #include <random>

@@ -6,7 +6,7 @@
 #include <complex>
 #include <map>
 #include <numbers>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/stability.hpp>
 #include <plica/drivers/study/verify.hpp>

@@ -7,7 +7,7 @@
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/machine_limits.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>

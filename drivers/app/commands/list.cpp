@@ -10,7 +10,7 @@
 #include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/units.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/study/verify.hpp>
 #include <plica/meshes/files/list.hpp>
 

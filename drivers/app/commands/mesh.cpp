@@ -11,8 +11,8 @@
 #include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
-#include <plica/drivers/solver/element_bound.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/element_bound.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/memory_file.hpp>

@@ -12,8 +12,8 @@
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
-#include <plica/drivers/solver/busy_cores.hpp>
-#include <plica/drivers/solver/him/advice.hpp>
+#include <plica/drivers/cycles/him/advice.hpp>
+#include <plica/drivers/run/busy_cores.hpp>
 #include <plica/version.hpp>
 #include <stdexcept>
 

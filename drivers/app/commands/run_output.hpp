@@ -10,10 +10,10 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/material_points.hpp>
-#include <plica/drivers/solver/obstacles_inside.hpp>
-#include <plica/drivers/solver/set_up/initial_state.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
+#include <plica/drivers/run/material_points.hpp>
+#include <plica/drivers/run/obstacles_inside.hpp>
 #include <set>
 
 namespace plica::app {

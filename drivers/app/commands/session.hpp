@@ -6,9 +6,9 @@
 #include <mutex>
 #include <optional>
 #include <plica/drivers/app/commands/commands.hpp>
-#include <plica/drivers/solver/set_up/plan_steps.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/cycles/plan_steps.hpp>
+#include <plica/drivers/run/simulation.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
 #include <thread>

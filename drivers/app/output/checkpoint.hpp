@@ -3,7 +3,7 @@
 #include <map>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 
 namespace plica::app {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <plica/core/problem.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <string>
 #include <vector>
 

@@ -9,7 +9,7 @@
 #include <plica/core/backend.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/solver/turning.hpp>
+#include <plica/drivers/contact/turning.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/version.hpp>
 #include <set>

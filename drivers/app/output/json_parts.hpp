@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <plica/core/obstacles.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <string>
 #include <vector>
 

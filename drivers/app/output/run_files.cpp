@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/body_parts.hpp>
-#include <plica/drivers/solver/set_up/fibres.hpp>
-#include <plica/drivers/solver/set_up/initial_state.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/drivers/solver/set_up/selection.hpp>
+#include <plica/drivers/body/body_parts.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/elastic/fibres.hpp>
+#include <plica/drivers/methods/methods.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {

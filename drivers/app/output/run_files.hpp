@@ -6,7 +6,7 @@
 #include <plica/drivers/app/output/frames.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <string>
 #include <vector>
 

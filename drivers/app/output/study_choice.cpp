@@ -7,8 +7,9 @@
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/steppers.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/steppers.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/meshes/files/memory_file.hpp>
 #include <sstream>
 

@@ -11,7 +11,7 @@
 #include <plica/drivers/app/output/truth_report.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
-#include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/elastic/elements.hpp>
 #include <plica/version.hpp>
 #include <sstream>
 

@@ -9,10 +9,10 @@
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/solver/elements.hpp>
-#include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/set_up/body_parts.hpp>
-#include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/body/body_parts.hpp>
+#include <plica/drivers/cycles/plan_steps.hpp>
+#include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
 #include <plica/version.hpp>
 
 namespace plica::app {

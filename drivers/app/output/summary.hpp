@@ -5,7 +5,7 @@
 #include <optional>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
 #include <vector>

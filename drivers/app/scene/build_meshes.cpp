@@ -6,7 +6,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/repair_level.hpp>
-#include <plica/drivers/solver/set_up/sample_distance.hpp>
+#include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/close_slits.hpp>
 #include <plica/meshes/files/mesh_files.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <plica/drivers/app/scene/scene.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 
 namespace plica::app {
 

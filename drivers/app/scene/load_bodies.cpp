@@ -6,7 +6,7 @@
 #include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 
 namespace plica::app {
 

@@ -7,9 +7,10 @@
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica::app {

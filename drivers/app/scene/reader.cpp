@@ -6,8 +6,8 @@
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/app/scene/units.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <stdexcept>
 
 namespace plica::app {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/repair_level.hpp>
-#include <plica/drivers/solver/element_bound.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/element_bound.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/reordering.hpp>
 #include <plica/meshes/repair_mesh.hpp>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/view/hands.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 
 namespace plica::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/app/view/controls.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <vector>
 
 namespace plica::app {

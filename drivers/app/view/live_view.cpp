@@ -14,8 +14,8 @@
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/view/hands.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/set_up/initial_state.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <set>
 #include <thread>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/verify/list.hpp>

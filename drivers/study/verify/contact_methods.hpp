@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/verify/list.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/study/verify/box_meshes.hpp>
 #include <plica/drivers/study/verify/contact_methods.hpp>
 #include <plica/kernels/contact/shapes.hpp>

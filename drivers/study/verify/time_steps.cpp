@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <numbers>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>

@@ -5,7 +5,7 @@
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/methods/methods.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "unit/app/child.hpp"

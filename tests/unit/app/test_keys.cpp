@@ -5,7 +5,7 @@
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/app/scene/units.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <regex>
 #include <set>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "fuzz/replay.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <string>
 
 #include "unit/app/scene_text.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>

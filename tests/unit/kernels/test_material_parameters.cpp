@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <string>
 #include <vector>
 

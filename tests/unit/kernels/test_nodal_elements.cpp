@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
+#include <plica/drivers/elastic/build_nodal_rows.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/elastic/nodal_elements.hpp>

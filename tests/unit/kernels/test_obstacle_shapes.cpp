@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/set_up/sample_distance.hpp>
+#include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 

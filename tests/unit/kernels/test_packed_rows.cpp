@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/drivers/linear/multigrid.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/meshes/generators.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/set_up/build_surface.hpp>
+#include <plica/drivers/contact/build_surface.hpp>
 #include <plica/kernels/elastic/elastic_force.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 
 #include "support/backends.hpp"
 #include "support/plain_elements.hpp"

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <plica/drivers/solver/courses.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
-#include <plica/kernels/boundary_conditions.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/core/time_functions.hpp>
+#include <plica/drivers/spaces/transfer_matrix.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 #include "support/backends.hpp"

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/validate.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

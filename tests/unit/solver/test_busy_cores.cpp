@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <plica/drivers/solver/busy_cores.hpp>
+#include <plica/drivers/run/busy_cores.hpp>
 #include <thread>
 #include <vector>
 

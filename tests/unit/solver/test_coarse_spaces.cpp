@@ -3,11 +3,11 @@
 
 #include <map>
 #include <numeric>
-#include <plica/drivers/solver/linear/stage_system.hpp>
-#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
-#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
-#include <plica/drivers/solver/spaces/edge_graph.hpp>
-#include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/linear/make_linear_solver.hpp>
+#include <plica/drivers/linear/stage_system.hpp>
+#include <plica/drivers/spaces/coarse_spaces.hpp>
+#include <plica/drivers/spaces/moving_least_squares.hpp>
+#include <plica/meshes/edge_graph.hpp>
 #include <plica/meshes/organs.hpp>
 #include <set>
 

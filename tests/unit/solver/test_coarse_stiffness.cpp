@@ -3,11 +3,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <numeric>
-#include <plica/drivers/solver/spaces/block_rows.hpp>
-#include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
-#include <plica/drivers/solver/spaces/edge_graph.hpp>
-#include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/spaces/block_rows.hpp>
+#include <plica/drivers/spaces/coarse_stiffness.hpp>
+#include <plica/drivers/spaces/moving_least_squares.hpp>
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/meshes/edge_graph.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/contact/contact.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

@@ -4,9 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <numeric>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/critical_step.hpp>
-#include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/cycles/plan_steps.hpp>
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/drivers/time/critical_step.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 

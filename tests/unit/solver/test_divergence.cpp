@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 #include <regex>

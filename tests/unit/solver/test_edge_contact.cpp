@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/kernels/contact/gap_of_edges.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/material_points.hpp>
+#include <plica/drivers/run/material_points.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"

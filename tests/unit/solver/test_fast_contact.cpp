@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/kernels/contact/gap.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/shapes.hpp>

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
-#include <plica/drivers/solver/set_up/fibres.hpp>
+#include <plica/drivers/elastic/fibres.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"

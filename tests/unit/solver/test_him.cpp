@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/him/him_stepper.hpp>
+#include <plica/drivers/cycles/him/him_stepper.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <plica/drivers/solver/linear/stage_system.hpp>
-#include <plica/drivers/solver/set_up/join_bodies.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/linear/stage_system.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

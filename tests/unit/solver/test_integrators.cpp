@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"

@@ -3,7 +3,7 @@
 
 #include <Kokkos_Profiling_ProfileSection.hpp>
 #include <algorithm>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 #include <string>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 #include <thread>

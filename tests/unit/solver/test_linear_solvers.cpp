@@ -3,14 +3,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/linear/list.hpp>
-#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/linear/list.hpp>
+#include <plica/drivers/linear/make_linear_solver.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/materials/list.hpp>
-#include <plica/kernels/transfer.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
 #include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"

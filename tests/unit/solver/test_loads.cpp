@@ -3,7 +3,7 @@
 
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/courses.hpp>
+#include <plica/core/time_functions.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/contact_law.hpp>
 #include <plica/kernels/contact/shapes.hpp>

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
+#include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/organs.hpp>

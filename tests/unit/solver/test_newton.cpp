@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/methods/methods.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/energies.hpp>
-#include <plica/kernels/implicit/stage_kernels.hpp>
+#include <plica/kernels/time/energies.hpp>
+#include <plica/kernels/time/stage_kernels.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/courses.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/core/time_functions.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/study/level_probe.hpp>
-#include <plica/kernels/boundary_conditions.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 #include "support/backends.hpp"

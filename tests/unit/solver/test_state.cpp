@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/obstacles_inside.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/obstacles_inside.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

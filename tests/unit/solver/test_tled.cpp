@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/simulation.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

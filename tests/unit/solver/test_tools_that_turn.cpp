@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/drivers/solver/turning.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/contact/turning.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

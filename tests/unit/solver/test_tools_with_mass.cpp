@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/body/masses.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

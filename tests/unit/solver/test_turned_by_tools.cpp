@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/drivers/solver/turning.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/contact/turning.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

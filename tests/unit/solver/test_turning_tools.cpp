@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/him/advice.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/drivers/solver/turning.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/contact/turning.hpp>
+#include <plica/drivers/cycles/him/advice.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

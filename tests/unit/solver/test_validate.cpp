@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/set_up/selection.hpp>
-#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/first_touch.hpp>
 #include <plica/kernels/contact/shapes.hpp>

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
 #include <plica/drivers/study/eigenvalues.hpp>
 #include <plica/kernels/contact/shapes.hpp>

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
-#include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/study/stability.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/meshes/generators.hpp>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/drivers/app/scene/load_scene.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/run/simulation.hpp>
 
 #include "support/backends.hpp"
 

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/drivers/contact/contact_response.hpp>
+#include <plica/drivers/contact/pair_search.hpp>
+#include <plica/kernels/contact/explicit_contact.hpp>
+#include <plica/kernels/contact/implicit_contact.hpp>
+#include <plica/kernels/contact/wrenches.hpp>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+// After the one that finds rho and the forces by e alone. With the lumped masses' inverse they cost
+// little, and two bodies that meet fast need them; with that of `him` each one is an application of
+// it.
+constexpr int sweeps_of_masses = 7, sweeps_of_him = 3;
+
+/// As in a whole macro step, of which this one is a part.
+ContactStep of_whole_step(const ContactStep& step, double part) {
+  return {step.span / part, step.ahead / part, step.damped / part, step.ends};
+}
+
+}  // namespace
+
+template <class B>
+ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
+                                    const Level<B>& level, bool implicit)
+    : contact_(std::move(contact)),
+      own_(contact_->make_records(level.surface, level.model.vertices, implicit)),
+      records_(own_),
+      maker_(std::max(records_.slots(), level.surface.touched)),
+      blocks_(std::max(records_.slots(), records_.points)),
+      free_(
+          zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(level.model.vertices))),
+      answer_(zeros<Vectors<B>>("plica::contact.answer",
+                                static_cast<std::size_t>(level.model.vertices))),
+      sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
+      impulse_(zeros<Doubles<B>>("plica::contact.impulse",
+                                 static_cast<std::size_t>(6 * contact_->wrenches()))),
+      carried_impulse_(zeros<Doubles<B>>("plica::contact.carried_impulse",
+                                         static_cast<std::size_t>(6 * contact_->wrenches()))),
+      work_(zeros<Doubles<B>>("plica::contact.work", 1)) {
+  const auto lend = [](auto& field) { field = lent(field); };
+  ContactRecords<B>::each_own(records_, lend), ContactRecords<B>::each_shared(records_, lend);
+  if (implicit)
+    product_ =
+        zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
+  records_.long_steps = implicit;
+  if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
+}
+
+/// The records of a state, listed.
+template <class B>
+void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state,
+                              double time) {
+  look(exec, level, state, time);
+  found_ = time, fresh_ = false;
+}
+template <class B>
+void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const State<B>& state,
+                              double time) const {
+  reduce<B, 1, PlacePoints<B>, Sums<1, 1>>(exec, "plica::contact_places", records_.points,
+                                           {level.surface, state, records_.places}, blocks_,
+                                           records_.fastest);
+  contact_->find(exec, level, state, time, records_);
+  if (search_) search_->find(exec, level.surface, state, records_, fresh_, blocks_);
+  list_contacts<B>(exec, level.surface, records_, maker_);
+}
+
+/// The records at the level's state; where no step has been taken yet, they are found.
+template <class B>
+RecordLater<B> ContactResponse<B>::later(const Exec& exec, const Level<B>& level,
+                                         double time) const {
+  if (fresh_) look(exec, level, level.state, time);
+  const double since = fresh_ ? 0 : std::max(0.0, time - found_);
+  return {level.surface, level.state.v, records_, static_cast<Real>(since), records_.span};
+}
+
+template <class B>
+void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state,
+                               double time, const ContactStep& given, ExplicitContact<B> contact,
+                               const Respond& respond, const std::function<void()>& free) {
+  const ContactStep step = of_whole_step(given, part_);
+  records_.span = contact.h = static_cast<Real>(step.span);
+  contact.ahead = static_cast<Real>(step.ahead);
+  find(exec, level, state, time);
+  contact.records = records_;
+  free();
+  const DeviceList<B>& list = records_.list;
+  sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_,
+                 records_.touching);
+  const int sweeps = contact.isotropic ? sweeps_of_masses : sweeps_of_him;
+  for (int sweep = 0; sweep <= sweeps; ++sweep) {
+    respond();
+    over_list<B>(exec, list, "plica::contact_sweep", SweepContact<B>{contact, sweep == 0},
+                 records_.touching);
+  }
+  respond();
+  if (given.ends)
+    end(exec, "plica::contact_stretch", StretchContact<B>{contact, static_cast<Real>(given.span)});
+}
+
+/// The last kernel of a step, which says what friction has done; where there is none, nobody adds
+/// that up.
+template <class B>
+template <class End>
+void ContactResponse<B>::end(const Exec& exec, const char* label, const End& kernel) const {
+  if (!contact_->rubs()) return over_list<B>(exec, records_.list, label, kernel);
+  reduce<B, 1, TermOfList<B, End>>(exec, label, records_.list.most,
+                                   {records_.list.count.data(), kernel}, blocks_, sums_,
+                                   AddWork<B>{sums_, work_});
+}
+
+template <class B>
+void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                 double time, const ContactStep& step, const Vectors<B>& free,
+                                 const Vectors<B>& answer, const Respond& respond) {
+  const bool before = std::exchange(records_.long_steps, true);
+  solve(exec, level, state, time, step,
+        {level.surface, records_, state.v, free, answer, 0, 0, false}, respond, [] {});
+  records_.long_steps = before;
+}
+
+template <class B>
+void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                    double time, const ContactStep& given, const Vectors<B>& f) {
+  if (!(given.span > 0)) {
+    look(exec, level, state, time);
+    over_list<B>(exec, records_.list, "plica::contact_static", StaticContact<B>{records_});
+    return scatter(exec, level, f);
+  }
+  const Real damped = static_cast<Real>(of_whole_step(given, part_).damped);
+  AnswerByMass<B> answer{level.surface, level.model, records_, answer_, damped, Bounding::all};
+  const DeviceList<B>& vertices = records_.transpose.vertices;
+  solve(
+      exec, level, state, time, given,
+      {level.surface, records_, state.v, free_, answer_, 0, 0, true},
+      [&] {
+        over_list<B>(exec, vertices, "plica::contact_answer", answer, records_.touching);
+        answer.bounding = Bounding::none;
+      },
+      [&] {
+        over_list<B>(exec, vertices, "plica::contact_free",
+                     FreeAcceleration<B>{level.surface, records_.transpose, level.model, f, state.v,
+                                         free_, damped});
+      });
+  scatter(exec, level, f);
+}
+
+template <class B>
+void ContactResponse<B>::forget_impulse(const Exec& exec) const {
+  fill(exec, impulse_, 0);
+}
+
+template <class B>
+void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                     double time, double weight) const {
+  add_impulse(exec, level, state, time, CarriedImpulse{weight});
+}
+template <class B>
+void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                     double time, const CarriedImpulse& of) const {
+  const auto add = [&](int number, const auto& term) {
+    reduce<B, 6, TermOfList<B, std::decay_t<decltype(term)>>>(
+        exec, "plica::contact_wrench", records_.list.most, {records_.list.count.data(), term},
+        blocks_, sums_, AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
+  };
+  for (int o = 0; o < contact_->obstacles(); ++o)
+    add(o, ObstacleWrench<B>{level.surface, state.u, records_, o, contact_->place(o, time)});
+  for (int b = 0; b < contact_->touching_bodies(); ++b)
+    add(contact_->obstacles() + b, BodyWrench<B>{level.surface, state.u, records_, b});
+}
+
+template <class B>
+double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, double time) const {
+  const RecordLater<B> at = later(exec, level, time);
+  sum_list<B, 1>(exec, records_.list, "plica::contact_energy", ContactEnergy<B>{at}, blocks_,
+                 sums_);
+  return host_values(exec, sums_)[0];
+}
+
+template <class B>
+double ContactResponse<B>::energy_found(const Exec& exec, const Level<B>& level,
+                                        const State<B>& state, double time) {
+  keep(exec, aside_);
+  find(exec, level, state, time);
+  const double found = energy(exec, level, time);
+  put_back(exec, level, aside_);
+  return found;
+}
+
+template <class B>
+double ContactResponse<B>::friction_work(const Exec& exec) const {
+  return host_values(exec, work_)[0];
+}
+
+template <class B>
+std::vector<double> ContactResponse<B>::slipping(const Exec& exec) const {
+  std::vector<double> all;
+  for (int o = 0; o < contact_->obstacles(); ++o) {
+    sum_list<B, 2>(exec, records_.list, "plica::contact_slips", CountSlips<B>{records_, o}, blocks_,
+                   sums_);
+    const auto counts = host_values(exec, sums_);
+    all.push_back(counts[0] > 0 ? counts[1] / counts[0] : 0);
+  }
+  return all;
+}
+
+template <class B>
+std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>& level,
+                                               double time) const {
+  const RecordLater<B> at = later(exec, level, time);
+  std::vector<double> all;
+  for (int o = 0; o < contact_->obstacles() + (contact_->has_pairs() ? 1 : 0); ++o) {
+    sum_list<B, 1, DepthInPartner<B>, Sums<1, 1>>(exec, records_.list, "plica::contact_depth",
+                                                  {at, o}, blocks_, sums_);
+    all.push_back(host_values(exec, sums_)[0]);
+  }
+  return all;
+}
+
+template <class B>
+void ContactResponse<B>::begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                     double time, const ContactStage& stage) {
+  stage_ = stage;
+  records_.span = static_cast<Real>(stage.span);
+  find(exec, level, state, time);
+  over_list<B>(exec, records_.list, "plica::contact_begin",
+               BeginContact<B>{level.surface, state.u, records_});
+  found_ = time + stage.span;
+}
+
+template <class B>
+ImplicitContact<B> ContactResponse<B>::at(const Level<B>& level, const State<B>& state,
+                                          double ahead) const {
+  return {level.surface,
+          state,
+          records_,
+          static_cast<Real>(stage_.span),
+          static_cast<Real>(stage_.scale),
+          static_cast<Real>(ahead)};
+}
+
+template <class B>
+ContactBalance ContactResponse<B>::read_balance(const Exec& exec) const {
+  const auto sums = host_values(exec, sums_);
+  return {stage_.factor / stage_.scale * sums[0], stage_.factor * sums[1], stage_.factor * sums[2]};
+}
+
+template <class B>
+ContactBalance ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level,
+                                             const State<B>& state, const ImplicitWeights& w,
+                                             double ahead, const Vectors<B>& f, bool secant) {
+  const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
+  sum_list<B, 3>(exec, records_.list, "plica::contact_linearise",
+                 LineariseContact<B>{at(level, state, ahead), weight, true, secant}, blocks_,
+                 sums_);
+  scatter(exec, level, f, stage_.factor);
+  return read_balance(exec);
+}
+
+template <class B>
+ContactBalance ContactResponse<B>::balance(const Exec& exec, const Level<B>& level,
+                                           const State<B>& state) {
+  sum_list<B, 3>(exec, records_.list, "plica::contact_balance",
+                 LineariseContact<B>{at(level, state, 0), 0, false}, blocks_, sums_);
+  return read_balance(exec);
+}
+
+template <class B>
+void ContactResponse<B>::update_caps(const Exec& exec, const Level<B>& level,
+                                     const State<B>& state) const {
+  over_list<B>(exec, records_.list, "plica::contact_caps", UpdateCaps<B>{at(level, state, 0)});
+}
+
+template <class B>
+void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level,
+                                   const State<B>& state) const {
+  end(exec, "plica::contact_end", EndContact<B>{at(level, state, 0)});
+}
+
+/// f += factor W^T of the last forces
+template <class B>
+void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
+                                 double factor) const {
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
+               ScatterContact<B>{.surface = level.surface,
+                                 .records = records_,
+                                 .f = f,
+                                 .factor = static_cast<Real>(factor)});
+}
+
+template <class B>
+void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p,
+                                     bool beside, const Vectors<B>& q) const {
+  if (beside && !contact_->couples()) return;
+  over_list<B>(exec, records_.list, "plica::contact_product",
+               ContactProduct<B>{level.surface, p, records_, product_, beside});
+  ContactRecords<B> products = records_;
+  products.force = product_;
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
+               ScatterContact<B>{.surface = level.surface, .records = products, .f = q});
+}
+
+template <class B>
+void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
+                                      const Blocks<B>& diagonal) const {
+  if (beside && !contact_->couples()) return;
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_diagonal",
+               AddContactBlocks<B>{level.surface, records_, beside, diagonal});
+}
+
+template <class B>
+void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, double scale,
+                                    const BlockMatrix<B>& A) const {
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_matrix",
+               AddContactToMatrix<B>{level.surface, records_, static_cast<Real>(scale), A});
+}
+
+template <class B>
+std::size_t ContactResponse<B>::bytes() const {
+  std::size_t all = (product_.span() + free_.span() + answer_.span()) * sizeof(Real) +
+                    (search_ ? search_->bytes() : 0);
+  ContactRecords<B>::each_own(records_, [&](const auto& field) { all += fields::bytes_of(field); });
+  return all;
+}
+
+// --- What a step takes from the last
+// ----------------------------------------------------------------------------------------
+
+template <class B>
+template <class Use>
+void ContactResponse<B>::each_carried(const Use& use) const {
+  const ContactRecords<B>& r = records_;
+  const auto flat = [](const auto& x) {
+    using Field = std::decay_t<decltype(x)>;
+    using Flat = std::conditional_t<std::is_same_v<typename Field::non_const_value_type, int>,
+                                    Indices<B>, Scalars<B>>;
+    return Flat(x.data(), x.span());
+  };
+  use("slots in use", r.near), use("surface points", flat(r.point)), use("laws", r.law_of),
+      use("partners", r.partner);
+  use("weights", flat(r.weight)), use("normals", flat(r.normal)), use("depths", r.depth),
+      use("ways", flat(r.way));
+  use("stretches", flat(r.stretch)), use("forces", flat(r.force));
+}
+
+template <class B>
+void ContactResponse<B>::forget(const Exec& exec) {
+  fill(exec, records_.near, 0), fill(exec, records_.list.count, 0.0),
+      fill(exec, records_.touching, 0.0);
+  fill(exec, records_.transpose.vertices.count, 0.0);
+  if (records_.pairs) fill(exec, records_.partner, -1);
+  fill(exec, carried_impulse_, 0.0);
+  fresh_ = true;
+}
+
+template <class B>
+void ContactResponse<B>::persist(StateArchive<B>& archive, const std::string& name) {
+  archive.number(found_), archive.number(fresh_), archive.number(records_.span);
+  each_carried([&](const char* what, const auto& field) {
+    archive.field(name + "contact: " + what, field);
+  });
+  archive.field(name + "contact: the list", records_.list.item);
+  archive.field(name + "contact: its length", records_.list.count);
+  archive.field(name + "contact: how much touches", records_.touching);
+  archive.field(name + "contact: carried impulses", carried_impulse_);
+  archive.field(name + "contact: friction's work", work_);
+}
+
+template <class B>
+void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
+  std::size_t i = 0, k = 0;
+  each_carried([&](const char*, const auto& field) {
+    using Field = std::decay_t<decltype(field)>;
+    auto& all = [&]() -> auto& {
+      if constexpr (std::is_same_v<Field, Indices<B>>)
+        return to.indices;
+      else
+        return to.reals;
+    }
+    ();
+    std::size_t& at = std::is_same_v<Field, Indices<B>> ? i : k;
+    if (all.size() <= at) all.push_back(zeros<Field>("plica::contact.kept", field.extent(0)));
+    copy(exec, all[at++], field);
+  });
+  if (to.work.extent(0) == 0) to.work = zeros<Doubles<B>>("plica::contact.kept_work", 1);
+  copy(exec, to.work, work_);
+  to.found = found_, to.fresh = fresh_;
+}
+
+template <class B>
+void ContactResponse<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
+  std::size_t i = 0, k = 0;
+  each_carried([&](const char*, const auto& field) {
+    using Field = std::decay_t<decltype(field)>;
+    if constexpr (std::is_same_v<Field, Indices<B>>)
+      copy(exec, field, from.indices[i++]);
+    else
+      copy(exec, field, from.reals[k++]);
+  });
+  copy(exec, work_, from.work);
+  list_contacts<B>(exec, level.surface, records_, maker_);
+  found_ = from.found, fresh_ = from.fresh;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class ContactResponse<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

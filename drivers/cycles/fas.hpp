@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/cycles/shared_step.hpp>
+#include <plica/kernels/time/updates.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
+
+namespace plica {
+
+/// A V-cycle whose coarse levels strive for the finest level's equilibrium, not their own: each
+/// carries the constant force tau = P^T (the finer level's force) - (its own), both at the state
+/// the cycle starts from, after the full approximation scheme (Brandt 1977). Restriction is the
+/// adjoint of the interpolation, coarse masses are inherited from the finer ones: mass and linear
+/// momentum pass exactly. State down, variation up.
+///
+/// Not symplectic: its linearised map has a spectral radius a little above 1 at every macro step
+/// with explicit levels.
+template <class B>
+class FasCycle final : public SharedStep<B> {
+  using Base = SharedStep<B>;
+
+ public:
+  void begin(Hierarchy<B>& h) override {
+    for (int i = 1; i < h.count(); ++i) restrict_state(h, i);
+  }
+
+  void step(Hierarchy<B>& h, double time, double t) override {
+    if (h.count() > 1) {
+      Base::prescribe_levels(h, time);
+      h[0].evaluate(h[0].state, time, h[0].f, contact_of(h[0], t));
+    }
+    for (int i = 1; i < h.count(); ++i) {
+      restrict_state(h, i);
+      correct(h, i, time, t);
+    }
+    for (int i = h.count() - 1; i >= 0; --i) {
+      if (i + 1 < h.count()) interpolate_variation(h, i);
+      time = Base::integrate(h, i, time, t);
+    }
+  }
+
+ private:
+  std::vector<Vectors<B>> correction_;
+
+  void allocate(Hierarchy<B>& h) override {
+    correction_.resize(h.levels.size());
+    for (int i = 1; i < h.count(); ++i) {
+      const int n = h[i].model.vertices;
+      h[i].start = State<B>("start", n);
+      correction_[static_cast<std::size_t>(i)] = Vectors<B>("plica::correction", n);
+    }
+  }
+
+  static void restrict_state(Hierarchy<B>& h, int i) {
+    const Level<B>&fine = h[i - 1], &coarse = h[i];
+    h.clock.time("restrict", i, [&] {
+      update_vertices<B>(
+          h.exec(), "plica::restrict", coarse.model.vertices,
+          RestrictState<B>{coarse.adjoint, fine.state, coarse.state, coarse.model.inverse_mass});
+      coarse.start.copy(h.exec(), coarse.state);
+    });
+  }
+
+  /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a
+  /// macro step.
+  static ContactStep contact_of(const SolverLevel<B>& level, double t) {
+    return {.span = level.share * t / level.substeps, .ends = false};
+  }
+
+  /// Leaves in level.f the level's corrected force at this state, for the next coarser level.
+  void correct(Hierarchy<B>& h, int i, double time, double t) {
+    const Level<B>& fine = h[i - 1];
+    SolverLevel<B>& coarse = h[i];
+    const Vectors<B>& tau = correction_[static_cast<std::size_t>(i)];
+    coarse.set_correction({});
+    coarse.evaluate(coarse.state, time, coarse.f, contact_of(coarse, t));
+    h.clock.time("correct", i, [&] {
+      update_vertices<B>(h.exec(), "plica::correction", coarse.model.vertices,
+                         DefectCorrection<B>{coarse.adjoint, fine.f, fine.model.inverse_mass,
+                                             coarse.model.inverse_mass, coarse.f, tau});
+    });
+    coarse.set_correction(tau);
+    coarse.add_correction(coarse.f);
+  }
+
+  static void interpolate_variation(Hierarchy<B>& h, int i) {
+    const Level<B>&fine = h[i], &coarse = h[i + 1];
+    h.clock.time("interpolate", i, [&] {
+      map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state,
+                                  coarse.start, fine.state, fine.state, {});
+    });
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/level/integrator.hpp>
+#include <plica/drivers/level/solver_level.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
+#include <vector>
+
+namespace plica {
+
+/// All resolutions of one body, finest first.
+template <class B>
+struct Hierarchy {
+  explicit Hierarchy(const typename B::Exec& exec) : clock(exec) {}
+  StageClock<B> clock;
+  /// linear solvers point at them: none is added after integrators were made
+  std::vector<SolverLevel<B>> levels;
+
+  const typename B::Exec& exec() const { return clock.exec(); }
+  int count() const { return static_cast<int>(levels.size()); }
+  SolverLevel<B>& operator[](int i) { return levels[static_cast<std::size_t>(i)]; }
+  const SolverLevel<B>& operator[](int i) const { return levels[static_cast<std::size_t>(i)]; }
+
+  void begin_macro_step(double part) {
+    for (SolverLevel<B>& level : levels) level.begin_macro_step(part);
+  }
+  /// States were replaced: nothing that was carried from the steps before belongs to them.
+  void forget() {
+    for (SolverLevel<B>& level : levels) level.forget();
+  }
+  void clear_flags() {
+    for (SolverLevel<B>& level : levels) level.flags.clear(exec());
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/cycles/shared_step.hpp>
+#include <plica/kernels/transfer/transfer.hpp>
+#include <utility>
+
+namespace plica {
+
+/// The V-cycle of Wu, Yao, Enquobahrie, Zhang & Audette (EMBC 2012): down, the state of every level
+/// goes to the next coarser one; up, every level takes over from the next coarser one and
+/// integrates its share of the macro step. Levels act one after the other, so that the coarsest
+/// covers the macro step's beginning and the finest its end.
+///
+/// A mapping hands over the state itself or its variation, what has changed over one macro step,
+/// added to a base that does not have it yet: down, the level's state at the start of the last
+/// cycle; up, its state now.
+template <class B, class Down, class Up>
+class VCycle final : public SharedStep<B> {
+  using Base = SharedStep<B>;
+  static constexpr bool keeps_previous = Down::needs_variation;
+  static constexpr bool keeps_start = Down::needs_variation || Up::needs_variation;
+
+ public:
+  void begin(Hierarchy<B>& h) override {
+    for (int i = 0; i < h.count() && h.count() > 1; ++i) {
+      Level<B>& level = h[i];
+      if (i > 0)
+        map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {},
+                                {}, level.state, {});
+      if (keeps_start) level.start.copy(h.exec(), level.state);
+      if (keeps_previous && i + 1 < h.count()) level.previous.copy(h.exec(), level.state);
+    }
+  }
+
+  void step(Hierarchy<B>& h, double time, double t) override {
+    const int coarsest = h.count() - 1;
+    if (coarsest > 0) Base::prescribe_levels(h, time);
+    if (coarsest > 0) remember_start(h, 0);
+    for (int i = 1; i <= coarsest; ++i) {
+      restrict_state(h, i);
+      remember_start(h, i);
+    }
+    for (int i = coarsest; i >= 0; --i) {
+      if (i < coarsest) interpolate_state(h, i);
+      time = Base::integrate(h, i, time, t);
+    }
+  }
+
+ private:
+  void allocate(Hierarchy<B>& h) override {
+    for (int i = 0; i < h.count() && h.count() > 1; ++i) {
+      if (keeps_start) h[i].start = State<B>("start", h[i].model.vertices);
+      if (keeps_previous && i + 1 < h.count())
+        h[i].previous = State<B>("previous", h[i].model.vertices);
+    }
+  }
+
+  static void remember_start(Hierarchy<B>& h, int i) {
+    Level<B>& level = h[i];
+    if (keeps_previous && i + 1 < h.count()) std::swap(level.start, level.previous);
+    if (keeps_start) h.clock.time("keep", i, [&] { level.start.copy(h.exec(), level.state); });
+  }
+
+  // called before the coarse level's own start is taken anew: it still holds that of the last cycle
+  static void restrict_state(Hierarchy<B>& h, int i) {
+    const Level<B>&fine = h[i - 1], &coarse = h[i];
+    h.clock.time("restrict", i, [&] {
+      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous,
+                          coarse.start, coarse.state, coarse.drift_limit);
+    });
+  }
+
+  static void interpolate_state(Hierarchy<B>& h, int i) {
+    const Level<B>&fine = h[i], &coarse = h[i + 1];
+    h.clock.time("interpolate", i, [&] {
+      map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start,
+                        fine.state, fine.state, fine.drift_limit);
+    });
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <plica/drivers/elastic/build_nodal_rows.hpp>
+#include <plica/drivers/elastic/vertex_shares.hpp>
+#include <span>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+/// What a domain has with a neighbour; see NodalRows.
+struct Pair {
+  int neighbour = -1;
+  Point gradient = Point::Zero(), surface = Point::Zero();  ///< C_ab, S_ab
+  double coupling = 0, smoothing = 0, size = 0;             ///< size: of what cancels in S_ab
+};
+
+struct Domain {
+  int vertex = -1, region = 0;
+  double volume = 0;
+  std::vector<Pair> pairs;
+  std::ptrdiff_t surface_pairs() const {
+    return std::ranges::count_if(pairs, [](const Pair& p) { return p.surface != Point::Zero(); });
+  }
+};
+
+/// The domains of a mesh, those of region 0 first, in each region in the order of the vertices.
+class Domains {
+ public:
+  explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(4 * mesh.tets.size()) {
+    find_corners();
+    const Grouping corners(corners_, all.size());
+    for_row_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = begin; d < end; ++d) measure(all[d], corners.of(d));
+    });
+  }
+
+  std::vector<Domain> all;
+
+ private:
+  const TetMesh& mesh_;
+  std::vector<int> corners_;  ///< [4 tetrahedra] the domains of their corners
+
+  void find_corners() {
+    const Grouping regions = tets_by_region(mesh_);
+    std::vector<int> domain_of(mesh_.vertices.size(), -1);
+    for (std::size_t r = 0; r < regions.groups(); ++r)
+      add_region(static_cast<int>(r), regions.of(r), domain_of);
+  }
+
+  /// @param domain_of  per vertex; -1 before and after
+  void add_region(int region, std::span<const int> tets, std::vector<int>& domain_of) {
+    std::vector<int> vertices;
+    for (const int e : tets)
+      for (const int v : mesh_.tets[index_of(e)])
+        if (std::exchange(domain_of[index_of(v)], 0) < 0) vertices.push_back(v);
+    std::ranges::sort(vertices);
+    for (const int v : vertices) {
+      domain_of[index_of(v)] = static_cast<int>(all.size());
+      all.push_back({v, region, 0, {}});
+    }
+    for (const int e : tets)
+      for (std::size_t k = 0; k < 4; ++k)
+        corners_[4 * index_of(e) + k] = domain_of[index_of(mesh_.tets[index_of(e)][k])];
+    for (const int v : vertices) domain_of[index_of(v)] = -1;
+  }
+
+  void measure(Domain& domain, std::span<const int> corners) const {
+    for (const int corner : corners) add_corner(domain, index_of(corner) / 4, index_of(corner) % 4);
+    std::ranges::sort(domain.pairs, {}, &Pair::neighbour);
+    for (Pair& p : domain.pairs)
+      if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // an edge inside the region
+  }
+
+  static Pair& pair(Domain& d, int neighbour) {
+    for (Pair& p : d.pairs)
+      if (p.neighbour == neighbour) return p;
+    return d.pairs.emplace_back(Pair{.neighbour = neighbour});
+  }
+
+  /// Corner a of tetrahedron e.
+  void add_corner(Domain& domain, std::size_t e, std::size_t a) const {
+    const auto& t = mesh_.tets[e];
+    Eigen::Matrix3d edges;
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) = mesh_.vertices[index_of(t[index_of(c + 1)])] - mesh_.vertices[index_of(t[0])];
+    const Eigen::Matrix3d inverse = edges.inverse();
+    const double volume = mesh_.part(e) * edges.determinant() / 6;
+    std::array<Point, 4> g;
+    for (int c = 0; c < 3; ++c) g[index_of(c + 1)] = inverse.row(c).transpose();
+    g[0] = -(g[1] + g[2] + g[3]);
+    domain.volume += volume / 4;
+    for (std::size_t b = 0; b < 4; ++b) {
+      if (a == b) continue;
+      Pair& p = pair(domain, corners_[4 * e + b]);
+      p.gradient += volume / 4 * g[b], p.surface += volume / 4 * (g[a] + g[b]);
+      p.coupling += volume * g[a].dot(g[b]), p.smoothing += volume / 16;
+      p.size += volume / 4 * (g[a].norm() + g[b].norm());
+    }
+  }
+};
+
+/// Which domain stands in which row: by region, then in windows of rows, those with the most
+/// surface pairs first, of these the longest.
+std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
+  std::vector<int> order;  // -1: fills up a slice
+  const auto window = static_cast<std::size_t>(32 * height);
+  for (std::size_t begin = 0; begin < domains.size();) {
+    std::size_t end = begin;
+    while (end < domains.size() && end < begin + window &&
+           domains[end].region == domains[begin].region)
+      ++end;
+    const std::size_t first = order.size();
+    for (std::size_t d = begin; d < end; ++d) order.push_back(static_cast<int>(d));
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
+                     [&](int a, int b) {
+                       const Domain &x = domains[index_of(a)], &y = domains[index_of(b)];
+                       return std::pair(x.surface_pairs(), x.pairs.size()) >
+                              std::pair(y.surface_pairs(), y.pairs.size());
+                     });
+    if (end == domains.size() || domains[end].region != domains[begin].region)
+      while (order.size() % index_of(height) != 0) order.push_back(-1);
+    begin = end;
+  }
+  return order;
+}
+
+/// The rows, slice by slice.
+template <class B>
+class SlicedRows {
+  using Real = typename B::Real;
+  using Rows = NodalRows<B>;
+  static constexpr auto H = static_cast<std::size_t>(Rows::height);
+
+ public:
+  explicit SlicedRows(const std::vector<Domain>& domains)
+      : domains_(domains), order_(row_order(domains, Rows::height)), slot_of_(domains.size()) {
+    for (std::size_t s = 0; s < order_.size(); ++s)
+      if (order_[s] >= 0) slot_of_[index_of(order_[s])] = static_cast<int>(s);
+    for (std::size_t begin = 0; begin < order_.size(); begin += H) {
+      std::ptrdiff_t pairs = 0, surface_pairs = 0;
+      for (std::size_t s = begin; s < begin + H; ++s) {
+        pairs = std::max(pairs, std::ssize(domain(s).pairs));
+        surface_pairs = std::max(surface_pairs, domain(s).surface_pairs());
+      }
+      first_.push_back(first_.back() + static_cast<int>(pairs));
+      first_surface_.push_back(first_surface_.back() + static_cast<int>(surface_pairs));
+    }
+  }
+
+  Rows on_device(std::size_t vertices, bool smoothed) const {
+    Rows rows;
+    rows.slices = static_cast<int>(order_.size() / H),
+    rows.domains = static_cast<int>(domains_.size());
+    rows.first = to_device<Indices<B>>("rows.first", first_);
+    rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface_);
+    add_slots(rows, vertices);
+    const auto pairs = index_of(first_.back()), surface_pairs = index_of(first_surface_.back());
+    const HostWritten<B, decltype(rows.neighbour)> neighbour("rows.neighbour", pairs),
+        surface_neighbour("rows.surface_neighbour", surface_pairs);
+    const HostWritten<B, decltype(rows.gradient)> gradient("rows.gradient", pairs),
+        surface_gradient("rows.surface_gradient", surface_pairs);
+    const HostWritten<B, decltype(rows.coupling)> coupling("rows.coupling", pairs),
+        smoothing("rows.smoothing", smoothed ? pairs : 0);
+    const Columns all{neighbour.data(), gradient.data(), coupling.data(),
+                      smoothed ? smoothing.data() : nullptr};
+    const Columns surface{surface_neighbour.data(), surface_gradient.data(), nullptr, nullptr};
+    for_row_ranges(order_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) add_pairs(s, all, surface);
+    });
+    rows.neighbour = neighbour.upload(), rows.gradient = gradient.upload(),
+    rows.coupling = coupling.upload();
+    if (smoothed) rows.smoothing = smoothing.upload();
+    rows.surface_neighbour = surface_neighbour.upload(),
+    rows.surface_gradient = surface_gradient.upload();
+    return rows;
+  }
+
+ private:
+  const std::vector<Domain>& domains_;
+  std::vector<int> order_, slot_of_;
+  std::vector<int> first_{0}, first_surface_{0};  // of each slice, among its columns
+
+  /// Pairs of a slice's rows, each in a column of its own.
+  struct Columns {
+    int* neighbour;
+    Real *gradient, *coupling, *smoothing;  ///< the last two may be left out
+
+    void put(std::size_t column, std::size_t row, int slot, const Point& g,
+             const Pair& pair) const {
+      neighbour[column * H + row] = slot;
+      for (std::size_t k = 0; k < 3; ++k)
+        gradient[(3 * column + k) * H + row] = static_cast<Real>(g[static_cast<int>(k)]);
+      if (coupling) coupling[column * H + row] = static_cast<Real>(pair.coupling);
+      if (smoothing) smoothing[column * H + row] = static_cast<Real>(pair.smoothing);
+    }
+  };
+
+  const Domain& domain(std::size_t slot) const {
+    static const Domain none;
+    return order_[slot] >= 0 ? domains_[index_of(order_[slot])] : none;
+  }
+
+  /// In the order of their slots; where there are fewer than in other rows of the slice, zeros and
+  /// the row itself.
+  void add_pairs(std::size_t slot, const Columns& all, const Columns& surface) const {
+    std::vector<const Pair*> pairs;
+    for (const Pair& pair : domain(slot).pairs) pairs.push_back(&pair);
+    std::ranges::sort(pairs, {},
+                      [&](const Pair* pair) { return slot_of_[index_of(pair->neighbour)]; });
+    const std::size_t slice = slot / H, row = slot % H;
+    auto column = index_of(first_[slice]), surface_column = index_of(first_surface_[slice]);
+    for (const Pair* pair : pairs) {
+      const int other = slot_of_[index_of(pair->neighbour)];
+      all.put(column++, row, other, pair->gradient, *pair);
+      if (pair->surface != Point::Zero())
+        surface.put(surface_column++, row, other, pair->surface, *pair);
+    }
+    const auto self = static_cast<int>(slot);
+    while (column < index_of(first_[slice + 1])) all.put(column++, row, self, Point::Zero(), {});
+    while (surface_column < index_of(first_surface_[slice + 1]))
+      surface.put(surface_column++, row, self, Point::Zero(), {});
+  }
+
+  /// What there is one of per slot or slice.
+  void add_slots(Rows& rows, std::size_t vertices) const {
+    std::vector<int> region, vertex;
+    std::vector<Real> volume, inverse;
+    for (std::size_t s = 0; s < order_.size(); ++s) {
+      const Domain& d = domain(s);
+      if (s % H == 0) region.push_back(d.region);
+      vertex.push_back(d.vertex);
+      volume.push_back(static_cast<Real>(d.volume));
+      inverse.push_back(d.vertex >= 0 ? static_cast<Real>(1 / d.volume) : Real(0));
+    }
+    rows.region = to_device<Indices<B>>("rows.region", region);
+    rows.vertex = to_device<Indices<B>>("rows.vertex", vertex);
+    rows.volume = to_device<Scalars<B>>("rows.volume", volume);
+    rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse);
+    rows.shares = vertex_shares<B>(vertex, vertices);
+  }
+};
+
+}  // namespace
+
+template <class B>
+NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants) {
+  using Real = typename B::Real;
+  const auto on_device = [](const char* name, const std::vector<double>& values) {
+    return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
+  };
+  const std::vector<Domain> domains = Domains(mesh).all;
+  const bool smoothed = !constants.excess.empty();
+  NodalRows<B> rows = SlicedRows<B>(domains).on_device(mesh.vertices.size(), smoothed);
+  std::vector<double> material;
+  for (const std::vector<double>& of_region : constants.material)
+    material.insert(material.end(), of_region.begin(), of_region.end());
+  rows.constants = on_device("rows.constants", material);
+  rows.stabiliser = on_device("rows.stabiliser", constants.stabiliser);
+  if (smoothed) rows.excess = on_device("rows.excess", constants.excess);
+  if (!constants.damping.empty()) rows.damping = on_device("rows.damping", constants.damping);
+  return rows;
+}
+
+template <class B>
+NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
+  NodalWork<B> work;
+  const auto n = static_cast<std::size_t>(rows.slots());
+  work.near = zeros<Scalars<B>>("plica::nodal.near", 8 * n);
+  work.records = zeros<Scalars<B>>("plica::nodal.records", 12 * n);
+  if (rows.excess.extent(0) == 0) return work;
+  work.ratio = zeros<Scalars<B>>("plica::nodal.ratio", 2 * n);
+  work.pressure = zeros<Scalars<B>>("plica::nodal.pressure", 2 * n);
+  return work;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                            \
+  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>( \
+      const TetMesh&, const NodalConstants&);                                    \
+  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
+      const NodalRows<Backend<Real, Exec>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

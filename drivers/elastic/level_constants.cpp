@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <plica/core/error.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/elastic/level_constants.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+
+namespace plica {
+
+namespace {
+
+void constrain(LevelConstants& c, const Body& body, const TetMesh& mesh, int level) {
+  std::map<int, std::string> motion_of;
+  const auto clash = [&](int v, const std::string& option) {
+    return InputError(option + ": vertex " + std::to_string(v) + " of level " +
+                      std::to_string(level) + " is prescribed by " + motion_of.at(v) +
+                      " too; a vertex has one motion, or is fixed");
+  };
+  c.constrained.assign(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+    const std::string option = "body.prescribed." + std::to_string(i);
+    for (int v : select_vertices(mesh, body.prescribed[i].where, {option, level})) {
+      if (!motion_of.emplace(v, option).second) throw clash(v, option);
+      c.constrained[static_cast<std::size_t>(v)] = 1;
+      c.prescribed_vertex.push_back(v), c.prescribed_motion.push_back(static_cast<int>(i));
+    }
+  }
+  for (std::size_t i = 0; i < body.fixed.size(); ++i) {
+    const std::string option = "body.fixed." + std::to_string(i);
+    for (int v : select_vertices(mesh, body.fixed[i], {option, level})) {
+      if (motion_of.contains(v)) throw clash(v, option);
+      c.constrained[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+}
+
+// A region's mass damping acts on its elements' share of a vertex's mass.
+std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> density,
+                                   const std::vector<double>& of_region,
+                                   const std::vector<double>& mass) {
+  if (std::adjacent_find(of_region.begin(), of_region.end(), std::not_equal_to<>()) ==
+      of_region.end())
+    return {of_region.front()};
+  for (std::size_t r = 0; r < density.size(); ++r) density[r] *= of_region[r];
+  std::vector<double> damping = lumped_masses(mesh, density);
+  for (std::size_t a = 0; a < damping.size(); ++a) damping[a] /= mass[a];
+  return damping;
+}
+
+/// What the constants of the elements' regions are made of, of the values of their parameters.
+ShapeConstants shape_constants(const Body& body, const MaterialInfo& material,
+                               const LevelConstants& c,
+                               const std::vector<std::vector<double>>& values,
+                               std::vector<std::vector<PronyTerm>> prony) {
+  ShapeConstants shape;
+  if (!is_viscous(body)) return shape;
+  shape.prony = std::move(prony);
+  const bool capped = c.element == Element::nodal && smooths_pressure(body, c.lame);
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    const Lame<double>& lame = c.lame[r];
+    const double bulk = (capped ? capped_lambda(lame) : lame.lambda) + 2 * lame.mu / 3;
+    shape.half.push_back(material.with_shape(values[r], 0.5, bulk));
+    shape.isochoric.push_back(material.with_shape(values[r], 1, 0));
+  }
+  return shape;
+}
+
+}  // namespace
+
+LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle,
+                               int level) {
+  LevelConstants c;
+  c.element = element_of(body, static_cast<std::size_t>(level));
+  const MaterialInfo& material = *find_material(body.material.model);
+  std::vector<double> mass_damping;            // per region
+  std::vector<std::vector<double>> values_of;  // likewise
+  std::vector<std::vector<PronyTerm>> prony;   // likewise
+  const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
+  for (std::size_t r = 0; r < regions; ++r) {
+    const auto own =
+        mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
+    const RegionOptions o = own == body.regions.end() ? RegionOptions{} : own->second;
+    if (material.has_fibres && !body.material.fibres && !o.fibres)
+      throw InputError("body.fibres is missing" +
+                       (mesh.region.empty()
+                            ? ""
+                            : ", and region '" + mesh.region_names[r] + "' has none of its own") +
+                       "; expected the direction of its fibres, such as {axis: [0, 0, 1]}");
+    const std::vector<double>& values =
+        values_of.emplace_back(parameter_values(material, body.material, o));
+    c.material.push_back(material.kernel_constants(values));
+    c.lame.push_back(material.small_strains(values));
+    c.capped.push_back(material.with_lambda
+                           ? material.with_lambda(values, capped_lambda(c.lame.back()))
+                           : c.material.back());
+    prony.push_back(o.prony.empty() ? body.material.prony : o.prony);
+    mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
+    c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
+  }
+  if (fibres_vary(body)) c.fibres = element_fibres(body, mesh, level);
+  c.shape = shape_constants(body, material, c, values_of, std::move(prony));
+  if (*std::max_element(c.stiffness_damping.begin(), c.stiffness_damping.end()) == 0)
+    c.stiffness_damping.clear();
+  c.density = region_densities(body, mesh);
+  c.mass = lumped_masses(mesh, c.density);
+  c.mass_damping = vertex_damping(mesh, c.density, mass_damping, c.mass);
+  constrain(c, body, mesh, level);
+  c.velocity.assign(mesh.vertices.size(), Point::Zero());
+  // the others take it from there
+  if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);
+  return c;
+}
+
+}  // namespace plica

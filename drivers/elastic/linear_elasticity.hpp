@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/elastic/elasticity.hpp>
+#include <plica/kernels/elastic/elastic_blocks.hpp>
+#include <plica/kernels/elastic/elastic_energy.hpp>
+#include <plica/kernels/elastic/elastic_force.hpp>
+#include <plica/kernels/elastic/elastic_stress.hpp>
+#include <plica/kernels/elastic/elastic_tangent.hpp>
+#include <plica/kernels/elastic/remember_stress.hpp>
+#include <plica/kernels/materials/positive_tangent.hpp>
+
+namespace plica {
+
+/// The kernels of linear tetrahedra of one material. Each material's and element's are compiled in
+/// a source of their own, which the build writes from elasticity_of.cpp.in: a change of one
+/// material compiles that one only.
+template <class B, class Material>
+class LinearElasticity final : public Elasticity<B> {
+  using Exec = typename B::Exec;
+
+ public:
+  void force(const Exec& exec, const Level<B>& level, const State<B>& state,
+             int evaluation) const override {
+    elastic_force<B, Material>(exec, level.model.patches, state, level.flags, evaluation,
+                               level.partial);
+  }
+  void tangent(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
+               double over, bool) const override {
+    elastic_tangent<B, Material>(exec, level.model.patches, u, p, over, level.partial);
+  }
+  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
+                double over, bool) const override {
+    elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, over, level.partial);
+  }
+  void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
+              const Vectors<B>& u, const ImplicitWeights& weights, bool positive,
+              const Blocks9<B>& shares, const BlockMatrix<B>& A) const override {
+    if (positive)
+      elastic_blocks<B, Material, PositiveTangent<Material>::template Of>(exec, model, pairs, u,
+                                                                          weights, shares, A);
+    else
+      elastic_blocks<B, Material, Material::template Tangent>(exec, model, pairs, u, weights,
+                                                              shares, A);
+  }
+  void energy(const Exec& exec, const Level<B>& level, const Vectors<B>& u) const override {
+    elastic_energy<B, Material>(exec, level.model.patches, u, level.partial);
+  }
+  void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+              const Scalars<B>& von_mises, const Scalars<B>& J) const override {
+    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.lost);
+  }
+  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                const Scalars<B>& constants) const override {
+    if constexpr (requires { Material::splits_shape; })
+      remember_elements<B, Material>(exec, level, u, constants);
+  }
+};
+
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> make_linear_elasticity() {
+  return std::make_unique<LinearElasticity<B, Material>>();
+}
+
+}  // namespace plica

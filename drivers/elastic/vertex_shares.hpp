@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/patches.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/meshes/grouping.hpp>
+#include <span>
+
+namespace plica {
+
+/// Which rows of a kernel's sums are a vertex's.
+/// @param vertex_of_row  negative: of no vertex
+template <class B>
+VertexShares<B> vertex_shares(std::span<const int> vertex_of_row, std::size_t vertices) {
+  const Grouping rows(vertex_of_row, vertices);
+  return {static_cast<int>(vertex_of_row.size()), to_device<Indices<B>>("shares.first", rows.first),
+          to_device<Indices<B>>("shares.row", rows.number)};
+}
+
+}  // namespace plica

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/elastic/viscosity.hpp>
+#include <plica/kernels/elastic/lost_stress.hpp>
+#include <plica/kernels/vectors.hpp>
+
+namespace plica {
+
+namespace {
+
+/// constants = whole + 2 share (half - whole)
+template <class B>
+struct ScaleShape {
+  Scalars<B> whole, half, to, share;
+  Indices<B> set_region;
+  int of_set;  ///< constants
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    to(i) = whole(i) + 2 * share(set_region(i / of_set)) * (half(i) - whole(i));
+  }
+};
+
+/// Of each set of the level's constants its region.
+template <class B>
+std::vector<int> regions_of_sets(const TetMesh& mesh, const Level<B>& level) {
+  std::vector<int> regions;
+  if (level.model.rows.slices > 0) {
+    const std::size_t count = mesh.region.empty() ? 1 : mesh.region_names.size();
+    for (std::size_t r = 0; r < count; ++r) regions.push_back(static_cast<int>(r));
+    return regions;
+  }
+  const auto first = on_host(level.model.patches.first_pack),
+             element = on_host(level.model.patches.element);
+  for (int p = 0; p < level.model.patches.count; ++p) {
+    const auto tet = static_cast<std::size_t>(element(first(p) * B::lanes));
+    regions.push_back(mesh.region.empty() ? 0 : mesh.region[tet]);
+  }
+  return regions;
+}
+
+template <class B>
+Scalars<B> constants_of_sets(const char* name, const std::vector<int>& regions,
+                             const std::vector<std::vector<double>>& of_regions) {
+  std::vector<typename B::Real> all;
+  for (const int r : regions)
+    for (const double value : of_regions[static_cast<std::size_t>(r)])
+      all.push_back(static_cast<typename B::Real>(value));
+  return to_device<Scalars<B>>(name, all);
+}
+
+/// Of each pack of elements or rows its region.
+template <class B>
+std::vector<int> regions_of_packs(const TetMesh& mesh, const Level<B>& level) {
+  std::vector<int> regions;
+  const NodalRows<B>& rows = level.model.rows;
+  if (rows.slices > 0) {
+    const auto region = on_host(rows.region);
+    for (int slot = 0; slot < rows.slots(); slot += B::lanes)
+      regions.push_back(region(slot / NodalRows<B>::height));
+    return regions;
+  }
+  const auto first = on_host(level.model.patches.first_pack);
+  const std::vector<int> of_patch = regions_of_sets(mesh, level);
+  for (std::size_t p = 0; p < of_patch.size(); ++p)
+    regions.resize(static_cast<std::size_t>(first(p + 1)), of_patch[p]);
+  return regions;
+}
+
+template <class B>
+RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& prony) {
+  RelaxationSteps<B> steps;
+  for (const auto& series : prony)
+    steps.terms = std::max(steps.terms, static_cast<int>(series.size()));
+  std::vector<double> alpha, tau;
+  for (std::vector<PronyTerm> series : prony) {
+    series.resize(static_cast<std::size_t>(steps.terms), {0, 1});
+    for (const PronyTerm& term : series) alpha.push_back(term.alpha), tau.push_back(term.tau);
+  }
+  steps.alpha = to_device<Doubles<B>>("viscosity.alpha", alpha),
+  steps.tau = to_device<Doubles<B>>("viscosity.tau", tau);
+  steps.step = Scalars<B>("plica::viscosity.step", 2 * alpha.size());
+  steps.weight = Scalars<B>("plica::viscosity.weight", alpha.size() + prony.size());
+  steps.share = Scalars<B>("plica::viscosity.share", prony.size());
+  return steps;
+}
+
+}  // namespace
+
+template <class B>
+Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule,
+                        const TetMesh& mesh, Level<B>& level)
+    : steps_(relaxation_steps<B>(constants.prony)) {
+  steps_.backward_euler = rule == "backward_euler";
+  const bool nodal = level.model.rows.slices > 0;
+  const std::vector<int> regions = regions_of_sets(mesh, level);
+  constants_ = nodal ? level.model.rows.constants : level.model.patches.constants;
+  set_region_ = to_device<Indices<B>>("viscosity.set_region", regions);
+  whole_ = to_device<Scalars<B>>("viscosity.whole", host_values(Exec(), constants_));
+  half_ = constants_of_sets<B>("viscosity.half", regions, constants.half);
+  isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
+  const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots()
+                                                    : level.model.patches.packs * B::lanes);
+  StressMemory<B>& stress = level.stress;
+  stress.terms = steps_.terms, stress.step = steps_.step;
+  stress.region = to_device<Indices<B>>("viscosity.region", regions_of_packs(mesh, level));
+  stress.memory = zeros<Scalars<B>>("plica::viscosity.memory",
+                                    slots * 6 * static_cast<std::size_t>(1 + stress.terms));
+  stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
+  stepped_ = none;
+}
+
+/// What depends on the time from the memory's alone.
+template <class B>
+void Viscosity<B>::step_over(const Exec& exec, double t) {
+  if (t == stepped_) return;
+  stepped_ = t;
+  RelaxationSteps<B> steps = steps_;
+  steps.t = t;
+  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps.share.extent(0)),
+                     steps);
+}
+
+template <class B>
+void Viscosity<B>::remember(const Exec& exec, const Level<B>& level,
+                            const Elasticity<B>& elasticity, const Vectors<B>& u, double time) {
+  step_over(exec, std::max(0.0, time - time_));
+  elasticity.remember(exec, level, u, isochoric_);
+  time_ = time, looked_ = none;
+}
+
+template <class B>
+void Viscosity<B>::look_at(const Exec& exec, const Level<B>& level, double time) {
+  const double t = std::max(0.0, time - time_);
+  take_share(exec, t);
+  if (t == looked_) return;
+  step_over(exec, t);
+  update_vertices<B>(exec, "plica::combine_memory", static_cast<int>(level.stress.lost.extent(0)),
+                     CombineMemory<B>{level.stress, steps_.weight});
+  looked_ = t;
+}
+
+/// The constants' energy of shape is without what is lost over that time.
+template <class B>
+void Viscosity<B>::take_share(const Exec& exec, double t) {
+  if (t == shared_) return;
+  step_over(exec, t), shared_ = t;
+  const auto sets = static_cast<int>(set_region_.extent(0)),
+             count = static_cast<int>(constants_.extent(0));
+  update_vertices<B>(
+      exec, "plica::scale_shape", count,
+      ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});
+}
+
+template <class B>
+void Viscosity<B>::keep(const Exec& exec, const Level<B>& level, Kept& to) const {
+  if (to.memory.extent(0) == 0)
+    to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
+  copy(exec, to.memory, level.stress.memory);
+  to.time = time_;
+}
+
+template <class B>
+void Viscosity<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
+  copy(exec, level.stress.memory, from.memory);
+  set_time(from.time);
+}
+
+template <class B>
+void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level,
+                           const std::string& name) {
+  archive.field(name + "memory of stress", level.stress.memory);
+  archive.number(time_);
+  if (archive.restoring()) looked_ = none;
+}
+
+template <class B>
+std::size_t Viscosity<B>::bytes(const Level<B>& level) const {
+  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.lost.extent(0) +
+                              whole_.extent(0) + half_.extent(0) + isochoric_.extent(0) +
+                              level.stress.region.extent(0);
+  return numbers * sizeof(Real);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class Viscosity<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/core/time_functions.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/elastic/build_nodal_rows.hpp>
+#include <plica/drivers/elastic/build_patches.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/level/build_level.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class B>
+PrescribedVertices<B> prescribed_vertices(const LevelConstants& c, const std::vector<Path>& paths,
+                                          const std::vector<PathKnot>& knots) {
+  PrescribedVertices<B> p;
+  p.count = static_cast<int>(c.prescribed_vertex.size());
+  if (p.count == 0) return p;
+  p.vertex = to_device<Indices<B>>("prescribed.vertex", c.prescribed_vertex);
+  p.path = to_device<Indices<B>>("prescribed.path", c.prescribed_motion);
+  p.paths = to_device<decltype(p.paths)>("prescribed.paths", paths);
+  p.knots = to_device<decltype(p.knots)>("prescribed.knots", knots);
+  return p;
+}
+
+template <class B>
+void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants,
+                         const LevelConstants& c, BesideNodal beside) {
+  using F = Backend<float, typename B::Exec>;
+  if (beside == BesideNodal::nothing) return;
+  model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
+  if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+  if (beside == BesideNodal::matrix) return;
+  constants.excess.clear();
+  model.float_rows = build_nodal_rows<F>(placed, constants);
+  if (!c.fibres.empty())
+    model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
+}
+
+template <class B>
+void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
+                  BesideNodal beside) {
+  Model<B>& model = level.model;
+  if (c.element == Element::linear) {
+    model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
+    if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+    model.shares = model.patches.shares;
+  } else {
+    const bool smoothed = smooths_pressure(body, c.lame);
+    NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
+    for (const Lame<double>& lame : c.lame) {
+      constants.stabiliser.push_back(body.stabilisation * lame.mu);
+      if (smoothed) constants.excess.push_back(lame.lambda - capped_lambda(lame));
+    }
+    model.rows = build_nodal_rows<B>(placed, constants);
+    model.shares = model.rows.shares;
+    level.nodal = make_nodal_work<B>(model.rows);
+    if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
+    add_preconditioning<B>(model, placed, std::move(constants), c, beside);
+  }
+  level.partial = zeros<Vectors<B>>("plica::work.partial",
+                                    std::max(model.shares.rows, model.patches.shares.rows));
+  if (!allows_inversion(body.material))
+    level.flags = make_element_flags<B>(c.element == Element::linear ? model.patches.count
+                                                                     : model.rows.slices);
+}
+
+}  // namespace
+
+template <class B>
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
+                     BesideNodal beside) {
+  using Real = typename B::Real;
+  const std::size_t n = placed.vertices.size();
+  Level<B> level;
+  level.model.vertices = static_cast<int>(n);
+  level.model.tets = static_cast<int>(placed.tets.size());
+  add_elements(level, body, placed, c, beside);
+
+  std::vector<Real> mass(n), inverse(n);
+  std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
+  for (std::size_t v = 0; v < n; ++v) {
+    mass[v] = static_cast<Real>(c.mass[v]);
+    inverse[v] = c.constrained[v] ? Real(0) : static_cast<Real>(1 / c.mass[v]);
+    if (!c.constrained[v]) velocity[v] = c.velocity[v];
+  }
+  std::vector<PathKnot> knots;
+  std::vector<Path> paths;
+  for (const PrescribedMotion& given : body.prescribed)
+    paths.push_back(make_path(given.motion, knots));
+  level.prescribed = prescribed_vertices<B>(c, paths, knots);
+  for (std::size_t i = 0; i < c.prescribed_vertex.size(); ++i) {
+    const auto v = static_cast<std::size_t>(c.prescribed_vertex[i]);
+    const PathPoint at =
+        path_at(paths[static_cast<std::size_t>(c.prescribed_motion[i])], knots.data(), 0);
+    for (int k = 0; k < 3; ++k)
+      displacement[v][k] = at.displacement[k], velocity[v][k] = at.velocity[k];
+  }
+  const std::vector<Real> damping(c.mass_damping.begin(), c.mass_damping.end());
+  level.model.damping.everywhere = damping.front();
+  if (damping.size() > 1)
+    level.model.damping.of_vertex = to_device<Scalars<B>>("model.damping", damping);
+  level.model.mass = to_device<Scalars<B>>("model.mass", mass);
+  level.model.inverse_mass = to_device<Scalars<B>>("model.inverse_mass", inverse);
+  level.state.u = to_device<Vectors<B>>("state.u", rows<Real>(displacement));
+  level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
+  level.f = zeros<Vectors<B>>("plica::work.f", n);
+  return level;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                   \
+  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
+      const Body&, const TetMesh&, const LevelConstants&, BesideNodal);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

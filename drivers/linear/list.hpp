@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/type_list.hpp>
+#include <plica/drivers/linear/conjugate_gradients.hpp>
+#include <plica/drivers/linear/direct.hpp>
+#include <plica/drivers/linear/v_cycle.hpp>
+
+namespace plica {
+
+/// Every solver of linear systems there is. One more: its file above, its name here.
+using LinearSolvers = TypeList<ConjugateGradients, Direct, VCycleSolver>;
+
+}  // namespace plica

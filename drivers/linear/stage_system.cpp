@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/linear/stage_system.hpp>
+#include <plica/drivers/spaces/transfer_matrix.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/vectors.hpp>
+
+namespace plica {
+
+template <class B>
+StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
+    : nodal_(level.model.rows.slices > 0),
+      assembled_(assembled),
+      inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
+      level_(&level) {
+  if (by_matrix()) pattern();
+}
+
+template <class B>
+const BlockMatrix<B>& StageSystem<B>::pattern() {
+  if (pattern_.matrix.rows == 0) {
+    pattern_ = block_pattern<B>(level_->model);
+    shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
+    if (nodal_ && !has_products())
+      blocks_of_matrix_ =
+          zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
+  }
+  return pattern_.matrix;
+}
+
+template <class B>
+void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
+                             const ImplicitWeights& weights, bool positive) {
+  const Exec& exec = level.exec();
+  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive,
+  ready_ = false;
+  if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
+  if (cycle_product_) cycle_product_->prepare(level, state_, weights, positive);
+  level.diagonal(state, weights, positive, inverse_diagonal_);
+  add_contact_blocks(exec, false, inverse_diagonal_);
+  invert_blocks(exec, inverse_diagonal_);
+}
+
+template <class B>
+void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside,
+                                        const Blocks<B>& blocks) const {
+  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, beside, blocks);
+}
+
+template <class B>
+InvertBlocks<B> StageSystem<B>::inverting(const Blocks<B>& blocks) const {
+  return {level_->model, blocks, static_cast<typename B::Real>(weights_.b)};
+}
+
+template <class B>
+void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
+  update_vertices<B>(exec, "plica::invert_blocks", rows(), inverting(blocks));
+}
+
+template <class B>
+void StageSystem<B>::invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks) {
+  update_vertices<B>(exec, "plica::take_diagonal", rows(), TakeDiagonal<B>{matrix(exec), blocks});
+  add_contact_blocks(exec, true, blocks);
+  invert_blocks(exec, blocks);
+}
+
+template <class B>
+void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
+  const BlockMatrix<B>& A = matrix(exec);
+  if (!nodal_ || has_products()) return preconditioner.fit(exec, A, inverse_diagonal_);
+  invert_blocks_of_matrix(exec, blocks_of_matrix_);
+  preconditioner.fit(exec, A, blocks_of_matrix_);
+}
+
+template <class B>
+const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
+  pattern();
+  if (!ready_)
+    forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+  ready_ = true;
+  return pattern_.matrix;
+}
+
+template <class B>
+const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) {
+  if (has_products() && !cycle_product_)
+    cycle_product_ = std::make_unique<CycleProduct<B>>(*level_, material, inverse_diagonal_);
+  return cycle_product_.get();
+}
+
+template <class B>
+void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
+  if (!by_matrix()) return forces_->product(state_, p, weights_, positive_, q);
+  update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
+  forces_->add_product_beside_matrix(state_, p, weights_, positive_, q);
+}
+
+template <class B>
+void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q,
+                             const BlockSums<B>& sums, const Doubles<B>& curvature,
+                             const CgStep<B>& then) const {
+  if (by_matrix_alone())
+    return reduce<B, 1>(exec, "plica::block_product", rows(),
+                        BlockProductDot<B>{pattern_.matrix, p, q}, sums, curvature, then);
+  product(exec, p, q);
+  reduce<B, 1>(exec, "plica::curvature", rows(), Dot<B>{p, q}, sums, curvature, then);
+}
+
+template <class B>
+void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
+  if (by_matrix_alone())
+    update_vertices<B>(exec, "plica::space_products", rows(),
+                       SpaceProducts<B>{pattern_.matrix, space});
+  else
+    for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);
+}
+
+template <class B>
+std::size_t StageSystem<B>::bytes() const {
+  const BlockMatrix<B>& A = pattern_.matrix;
+  const PatchPairs<B>& P = pattern_.pairs;
+  return (cycle_product_ ? cycle_product_->bytes() : 0) +
+         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column,
+                        A.diagonal, A.place, A.value, P.first_pair, P.first_shared, P.first_slot,
+                        P.first_turned, P.slot, P.place, P.first_share, P.shared_place);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <plica/core/text.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/diagnose.hpp>
+
+namespace plica {
+
+namespace {
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+Eigen::Matrix3d edges(const TetMesh& mesh, const std::array<int, 4>& t,
+                      const std::vector<Point>* moved) {
+  const auto at = [&](std::size_t k) {
+    const auto v = static_cast<std::size_t>(t[k]);
+    return moved ? Point(mesh.vertices[v] + (*moved)[v]) : mesh.vertices[v];
+  };
+  Eigen::Matrix3d m;
+  for (int c = 0; c < 3; ++c) m.col(c) = at(static_cast<std::size_t>(c + 1)) - at(0);
+  return m;
+}
+
+/// "neo_hookean, corotational"
+std::string recovering_materials() {
+  std::string names;
+  for (const MaterialInfo& material : material_list())
+    if (material.recovers) names += (names.empty() ? "" : ", ") + std::string(material.name);
+  return names;
+}
+
+/// Fills in what follows from level and element.
+template <class B>
+void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
+  const auto i = static_cast<std::size_t>(d.level);
+  const LevelReport& report = built.reports[i];
+  const TetMesh& mesh = built.meshes[i];
+  if (d.element >= 0 && !mesh.region.empty())
+    d.region = mesh.region_names[static_cast<std::size_t>(
+        mesh.region[static_cast<std::size_t>(d.element)])];
+  if (report.critical_step > 0 && std::isfinite(report.critical_step))
+    d.substep_over_critical = report.share * built.macro_step /
+                              (report.substeps * built.stepper->parts()) / report.critical_step;
+  if (report.explicit_integrator && d.substep_over_critical > 1)
+    d.remedy = "a macro_step or sub-steps within the critical step of that level";
+  else if (built.reports.size() > 1)
+    d.remedy =
+        "another macro_step (every cycle adds some error, so that a smaller step can be worse), "
+        "more sub-steps, or "
+        "cycle: single for comparison";
+  else if (report.explicit_integrator)
+    d.remedy =
+        "a smaller macro_step, or integration.on_failure.halvings: the critical step is that of "
+        "the body at rest, and "
+        "large strain stiffens it";
+  else
+    d.remedy =
+        "a smaller macro_step, integration.implicit.newton_iterations above 1, or more of "
+        "integration.on_failure.halvings";
+  if (d.kind == "inverted")
+    d.remedy +=
+        "; or let elements be inverted (body.material.allow_inversion) in a material that pushes "
+        "them back (" +
+        recovering_materials() + ")";
+  if (d.kind == "contact")
+    d.remedy =
+        "a smaller macro_step, contact.stiffness_scale above 1, or an obstacle that is not thinner "
+        "than what a "
+        "point moves in a step";
+}
+
+}  // namespace
+
+std::string Diagnosis::text() const {
+  const char* what =
+      kind == "inverted"    ? (element < 0 ? "the elements around a vertex are inside out"
+                                           : "an element is inside out")
+      : kind == "energy"    ? "the body has more kinetic energy than was put in"
+      : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
+      : kind == "contact"   ? "a point is deeper in an obstacle than the body is large"
+      : kind == "solver"    ? "the solver failed"
+      : kind == "stability" ? "the cycle lost its stability"
+                            : "a value is not finite";
+  std::string all = plica::text(what, ": level ", level);
+  if (element >= 0) all += plica::text(", element ", element);
+  if (!region.empty()) all += plica::text(" (region ", region, ")");
+  if (vertex >= 0) all += plica::text(", vertex ", vertex);
+  if (element >= 0 || kind == "inverted") all += " with J = " + number(J, 3);
+  if (!reason.empty()) all += "; " + reason;
+  if (motion_over_edge > 0.1)
+    all += plica::text("; ", number(motion_over_edge, 3), " edges moved in a sub-step");
+  if (substep_over_critical > 0)
+    all += plica::text("; sub-step ", number(substep_over_critical, 3),
+                       " times its critical step at rest");
+  if (!remedy.empty()) all += "; try " + remedy;
+  return all;
+}
+
+WorstElement worst_element(const TetMesh& mesh, const std::vector<Point>& displacement) {
+  WorstElement worst;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const double J = edges(mesh, mesh.tets[e], &displacement).determinant() /
+                     edges(mesh, mesh.tets[e], nullptr).determinant();
+    if (std::isfinite(J) && (worst.element < 0 || J < worst.J)) worst = {static_cast<int>(e), J};
+  }
+  return worst;
+}
+
+template <class B>
+std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field) {
+  const auto numbers = host_values(exec, field);
+  std::vector<Point> points(field.extent(0));
+  for (std::size_t a = 0; a < points.size(); ++a)
+    for (std::size_t k = 0; k < 3; ++k)
+      points[a][static_cast<Eigen::Index>(k)] = static_cast<double>(numbers[3 * a + k]);
+  return points;
+}
+
+template <class B>
+std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
+  for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // the order in which levels act
+    const Level<B>& level = (*built.hierarchy)[i];
+    if (level.flags.evaluation.extent(0) == 0) continue;
+    const auto copy = [](const auto& view) {
+      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+    };
+    if (copy(level.flags.raised)() == 0) continue;
+    const bool nodal = level.model.rows.slices > 0;
+    const auto evaluation = copy(level.flags.evaluation),
+               map = copy(nodal ? level.model.rows.vertex : level.model.patches.element);
+    const auto word = copy(level.flags.word);
+    const auto J = [&](int p) { return ElementFlags<B>::J(word(p)); };
+    int worst = -1;
+    for (int p = 0; p < static_cast<int>(evaluation.extent(0)); ++p)
+      if (evaluation(p) > 0 && (worst < 0 || evaluation(p) < evaluation(worst) ||
+                                (evaluation(p) == evaluation(worst) && J(p) < J(worst))))
+        worst = p;
+    if (worst < 0) continue;
+    Diagnosis d;
+    d.kind = std::isfinite(J(worst)) ? "inverted" : "non_finite";
+    (nodal ? d.vertex : d.element) = map(ElementFlags<B>::slot(word(worst)));
+    d.level = i, d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
+    complete(d, built);
+    return d;
+  }
+  return {};
+}
+
+template <class B>
+Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built,
+                         const std::vector<State<B>>& kept, int level, const std::string& reason) {
+  Diagnosis d;
+  d.kind = kind, d.level = std::max(level, 0), d.reason = reason;
+  for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0 && level < 0; --i) {
+    const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].state.u);
+    const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !is_finite(p); });
+    if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
+  }
+  const auto i = static_cast<std::size_t>(d.level);
+  const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].state.u : kept[i].u;
+  const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
+  d.element = worst.element, d.J = worst.J;
+  const bool forbidden = (*built.hierarchy)[d.level].flags.evaluation.extent(0) > 0;
+  // a cycle's repairs have lost the flag
+  if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";
+  complete(d, built);
+  return d;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                            \
+  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&,                          \
+                                                           const Vectors<Backend<Real, Exec>>&); \
+  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>(                          \
+      const BuiltHierarchy<Backend<Real, Exec>>&);                                               \
+  template Diagnosis locate_failure<Backend<Real, Exec>>(                                        \
+      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&,                            \
+      const std::vector<State<Backend<Real, Exec>>>&, int, const std::string&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

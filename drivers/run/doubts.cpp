@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
+#include <plica/drivers/body/initial_state.hpp>
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/validate.hpp>
+#include <plica/meshes/compare_levels.hpp>
+
+namespace plica {
+
+namespace {
+
+MeshSize size_of_level(const Body& body, std::size_t level) {
+  TetMesh mesh = body.levels[level];
+  add_regions(mesh, body.regions, static_cast<int>(level));
+  return mesh_size(mesh, region_densities(body, mesh));
+}
+
+// Of coarse levels that are somewhat another body; where one is quite another, the set-up refuses
+// it
+void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
+  const bool automatic = problem.integration.cycle == "auto";
+  if (!automatic && !uses_coarse_levels(problem.integration.cycle)) return;
+  MeshSize finest;
+  for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
+    const MeshSize size = size_of_level(problem.body, i);
+    if (i == 0) finest = size;
+    const LevelComparison found = compare_levels(finest, size, i);
+    if (found.same == SameBody::doubtful || (automatic && found.same == SameBody::no))
+      sentences.push_back("body.levels: " + found.sentence);
+  }
+}
+
+// Of linear elements where they are known to be too stiff, and of nodal ones that are too few
+void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
+  const MaterialInfo* material = find_material(body.material.model);
+  if (!material) return;
+  double poisson = 0;
+  const auto look = [&](const RegionOptions& region) {
+    const std::vector<double> values = parameter_values(*material, body.material, region);
+    poisson = std::max(poisson, poisson_ratio(material->small_strains(values)));
+  };
+  look({});
+  for (const auto& [name, region] : body.regions) look(region);
+  const Element element = element_of(body, 0);
+  const double across = elements_across(body.levels.front());
+  const bool linear = element == Element::linear;
+  if (linear ? poisson <= 0.4 && across >= 8 : across >= 1.2) return;
+  const auto bends = [&](Element one) { return number(bending_ratio(one, poisson, across), 2); };
+  sentences.push_back(text(
+      "body.element: level 0 has ", name_of(element), " elements, about ", number(across, 2),
+      " across its thickness, at nu ", number(poisson, 4), "; a slender beam of these bends ",
+      bends(element), " of what it should",
+      linear ? text(", of nodal elements ", bends(Element::nodal), ": expected body.element: nodal")
+             : ": expected a finer mesh"));
+}
+
+// Of a tool that is lighter than what it touches: its own inertia then counts for nothing, and it
+// is thrown about
+void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
+  double mass = -1;  // of a vertex, in the mean [kg]
+  for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i) {
+    const std::optional<double>& own = problem.contact.obstacles[i].mass;
+    if (!own) continue;
+    if (mass < 0)
+      mass = size_of_level(problem.body, 0).mass /
+             static_cast<double>(problem.body.levels.front().vertices.size());
+    if (*own < mass)
+      sentences.push_back(text("contact.obstacles.", i, ".mass: ", number(*own, 3),
+                               " kg is less than a vertex of the body has, ", number(mass, 3),
+                               " kg: contact throws it about; expected a tool that is not lighter "
+                               "than what it touches"));
+  }
+}
+
+// Of motion at contacts that these integrators let ring on from step to step
+void doubt_integrator(const Problem& problem, std::vector<std::string>& sentences) {
+  if (!has_contact(problem)) return;
+  for (const char* name : {"generalized_alpha", "newmark"})
+    if (std::ranges::count(problem.integration.integrator, name) > 0)
+      sentences.push_back(std::string("integration.integrator is ") + name +
+                          ": motion where something touches rings on from step to step, and forces "
+                          "of tools alternate; "
+                          "expected bdf2, sdirk2, implicit_euler or an explicit integrator");
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Problem& problem) {
+  std::vector<std::string> sentences;
+  const std::vector<TetMesh>& levels = problem.body.levels;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i].tets.size() >= levels[i - 1].tets.size())
+      sentences.push_back("body.levels: level " + std::to_string(i) +
+                          " is not coarser than level " + std::to_string(i - 1) + ": " +
+                          std::to_string(levels[i].tets.size()) + " tetrahedra after " +
+                          std::to_string(levels[i - 1].tets.size()) +
+                          "; expected the finest first");
+  if (levels.size() > 1) doubt_levels(problem, sentences);
+  doubt_elements(problem.body, sentences);
+  doubt_tools(problem, sentences);
+  doubt_integrator(problem, sentences);
+  for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
+  if (const Body& body = problem.body;
+      starts_deformed(body.initial) && !recovers(body.material.model)) {
+    const TetMesh& mesh = levels.front();
+    const std::string inverted = inverted_at_start(
+        mesh, initial_displacement(body.initial, mesh, bounding_box(mesh.vertices)));
+    if (!inverted.empty())
+      sentences.push_back("body.initial: " + inverted + "; " + body.material.model +
+                          " does not push them back; they may stay inverted");
+  }
+  for (std::size_t i = 0; i < problem.body.prescribed.size(); ++i)
+    if (const auto* path = std::get_if<PathMotion>(&problem.body.prescribed[i].motion);
+        path && path->knots.front().displacement.norm() > 0)
+      sentences.push_back(
+          "body.prescribed." + std::to_string(i) +
+          ".path does not start at [0, 0, 0]: the vertices jump there at the start");
+  return sentences;
+}
+
+}  // namespace plica

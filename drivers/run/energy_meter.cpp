@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
+#include <plica/kernels/time/energies.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+
+namespace plica {
+
+template <class B>
+EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
+                            const Point& gravity)
+    : hierarchy_(hierarchy), result_("plica::energies", 6) {
+  std::vector<typename B::Real> per_edge;
+  for (const double edge : local_edge_lengths(mesh))
+    per_edge.push_back(static_cast<typename B::Real>(1 / edge));
+  inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
+  const auto mass =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
+  for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
+  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
+  const Level<B>& level = hierarchy[0];
+  blocks_ = BlockSums<B>(std::max(
+      {level.model.vertices, static_cast<int>(level.partial.extent(0)), level.surface.points}));
+}
+
+template <class B>
+std::array<double, 6> EnergyMeter<B>::read() const {
+  const std::vector<double> sums = host_values(hierarchy_.exec(), result_);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+}
+
+template <class B>
+MotionReport EnergyMeter<B>::motion(const Point& drift) const {
+  using Term = MotionEnergies<B>;
+  const Level<B>& level = hierarchy_[0];
+  reduce<B, 6, Term, MotionSums>(
+      hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
+      Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}},
+      blocks_, result_);
+  const auto sums = read();
+  const Point mean = Point(sums[2], sums[3], sums[4]) / mass_;
+  return {{sums[0], 0, sums[1], 0},
+          mean,
+          sums[0] - 0.5 * mass_ * mean.squaredNorm(),
+          std::sqrt(sums[5])};
+}
+
+template <class B>
+Energies EnergyMeter<B>::all(double time) const {
+  const auto& exec = hierarchy_.exec();
+  const SolverLevel<B>& level = hierarchy_[0];
+  Energies e = motion(Point::Zero()).energies;
+  if (level.viscosity) level.viscosity->look_at_once(exec);
+  level.elasticity().energy(exec, level, level.state.u);
+  reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows,
+               FirstComponent<B>{level.partial}, blocks_, result_);
+  e.elastic = read()[0];
+  if (level.contact()) e.contact = level.response().energy(exec, level, time);
+  return e;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class EnergyMeter<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

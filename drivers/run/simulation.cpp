@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a run goes: a simulation is set up, steps, is checked, and recovers where it can. What it
+// tells of itself is in simulation_views.cpp, what it is made of in build_hierarchy.cpp.
+//
+// Who owns what. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each
+// SolverLevel owns its data (rest shape, masses, state, work arrays), the forces on it and its
+// integrator. A Stepper decides how the levels take a macro step together; it owns what is of no
+// single level. Nothing points upwards: a level knows of no stepper, a stepper of no simulation.
+//
+// A macro step of the paper's cycle, downwards through the files:
+//
+//   Simulation::step                        this file
+//     VCycle::step                          cycles/v_cycle.hpp
+//       restrict, finest to coarsest        kernels/transfer/transfer.hpp
+//       coarsest to finest:
+//         interpolate from the coarser one  kernels/transfer/transfer.hpp
+//         integrate its share               cycles/shared_step.hpp
+//           Integrator::advance             time/explicit.cpp
+//             SolverLevel::evaluate         level/solver_level.cpp
+//               elastic forces              elastic/elasticity.cpp, and the kernels of the material
+//               loads, contact, the caller's
+//             update velocity and place     kernels/time/updates.hpp
+//
+// With an implicit level, advance is in time/implicit.cpp: it sets the base of a stage,
+// StageSolver (time/stage_solver.hpp) linearises the level and solves, by a LinearSolver of
+// linear/. The hierarchical inverse mass (cycles/him/him_stepper.hpp) evaluates the forces of the
+// finest level once and lets all levels answer them.
+//
+// A step enqueues work and returns. check() waits, reads flags and sums, and looks at nothing else
+// but the state there is. What then is bad is a matter of recover(), which goes back to the last
+// state that was kept: it lets the stepper repair itself, or takes the macro steps since again in
+// halves (simulation_recovery.cpp). drivers that want all of it call step_checked().
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <plica/core/time_functions.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/contact/turning.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/simulation_inside.hpp>
+#include <plica/drivers/run/validate.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double time_rounding = 1e-9;  // relative
+// of an edge per macro step: motion that energy is not asked about
+constexpr double least_edge = 1e-3;
+
+const Problem& steppable(const Problem& p) {
+  validate(p);
+  if (p.integration.cycle == "auto")
+    throw InputError(
+        "integration.cycle is auto, which a simulation does not decide; expected a cycle by its "
+        "name: "
+        "choose_cycle() of plica/drivers/study/choose_cycle.hpp finds one by short trials");
+  return p;
+}
+
+}  // namespace
+
+// --- Set-up
+// -----------------------------------------------------------------------------------------------------------------
+
+template <class B>
+Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
+    : inside_(std::make_unique<Inside>(problem, exec)) {}
+template <class B>
+Simulation<B>::~Simulation() = default;
+
+template <class B>
+Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
+    : problem(steppable(p)),
+      built(build_hierarchy<B>(problem, exec)),
+      queue(exec),
+      meter(*built.hierarchy, built.meshes.front(), p.gravity),
+      motions(p.contact),
+      control(most_halvings(problem)) {
+  check_couplings(p.contact, built.macro_step);
+  problem.body.levels.clear();
+  rest.resize(built.hierarchy->levels.size());
+  if (built.stepper->can_repair()) older.emplace();
+  budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
+                 std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
+                              [](const ObstacleOptions& o) { return moves(o); });
+  if (const std::size_t count = wrench_names(p).size(); count > 0)
+    wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
+  if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();
+  judges = std::ranges::any_of(hierarchy().levels,
+                               [](const auto& level) { return level.integrator->judges(); });
+  if (control.halves()) part_start.emplace();
+  if (control.halves() && wrench.extent(0) > 0)
+    wrench_sum = zeros<Doubles<B>>("plica::contact.wrench_sum", wrench.extent(0));
+  linear = !find_material(p.body.material.model)->rotation_invariant;
+  keep_anew();
+  open_budget();
+}
+
+// --- Step
+// -------------------------------------------------------------------------------------------------------------------
+
+template <class B>
+void Simulation<B>::step() {
+  Inside& s = *inside_;
+  s.residual = 0;
+  const Kokkos::Timer timer;
+  // a short step's mean force wavers: the last whole one's stays
+  const bool part = s.reaches_end();
+  if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
+  if (s.control.halves() && (s.judges || s.control.divides()))
+    s.cover(false);
+  else
+    s.advance(s.time, s.next_span()), s.unsolved += s.left_unsolved() > 0 ? 1 : 0;
+  if (part) copy_memory(s.hierarchy().exec(), s.wrench_before, s.wrench);
+  s.arrive();
+  if (!s.cores) return;
+  if (const auto exec = s.cores->after_step(timer.seconds())) s.hierarchy().clock.set_exec(*exec);
+}
+
+template <class B>
+void Simulation<B>::end_at(double time) {
+  if (std::isnan(time))
+    throw InputError("end_at: the time is no number; expected one, or infinity for no end");
+  inside_->end = time;
+}
+
+/// Whether the next macro step would go beyond the end that a caller has set.
+template <class B>
+bool Simulation<B>::Inside::reaches_end() const {
+  return time < end &&
+         origin + static_cast<double>(steps + 1) * built.macro_step > (1 + time_rounding) * end;
+}
+
+template <class B>
+double Simulation<B>::Inside::next_span() const {
+  if (reaches_end()) return end - time;
+  const double whole = origin + static_cast<double>(steps) * built.macro_step;
+  return built.macro_step - (time - whole);  // which is 0 but after a step that was shorter
+}
+
+/// The time after the next macro step; a shorter one does not count.
+template <class B>
+void Simulation<B>::Inside::arrive() {
+  time = reaches_end() ? end : origin + static_cast<double>(++steps) * built.macro_step;
+}
+
+/// A macro step or a part of it; the time is the caller's.
+template <class B>
+void Simulation<B>::Inside::advance(double from, double span) {
+  // a profiler sees every kernel by itself, and the clock waits for each stage
+  const bool apart = !graphs || hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
+  const typename LaunchQueue<Exec>::Scope gather(apart ? nullptr : &queue);
+  if (const Contact<B>* contact = hierarchy()[0].contact()) motions.go_on(*contact, from);
+  hierarchy().begin_macro_step(span / built.macro_step);
+  hold_as_asked(hierarchy(), from, span);
+  built.stepper->step(hierarchy(), from, span);
+  move_obstacles(hierarchy(), wrench, from + span, span);
+  launch_gathered<Exec>();
+  for (const auto& level : hierarchy().levels)
+    residual = std::max(residual, level.integrator->residual());
+  worst_residual = std::max(worst_residual, residual);
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::step_checked() {
+  step();
+  auto bad = check();
+  if (bad) bad = recover(*bad);
+  return bad;
+}
+
+// --- Check
+// ------------------------------------------------------------------------------------------------------------------
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::check() {
+  Inside& s = *inside_;
+  const auto bad = s.examine();
+  if (bad) return bad;
+  s.keep_at_times();
+  s.built.stepper->lengthen(s.hierarchy(), s.built.macro_step, s.steps);
+  return {};
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
+  if (budget_opens) open_budget();
+  const MotionReport now = meter.motion(drift);
+  const LevelReport& finest = built.reports.front();
+  const bool lost = built.stepper->lost_stability(hierarchy(), now.about_mean),
+             late = built.stepper->sees_late();
+  if (lost && !late) return failure("stability");
+  const double substep =
+      finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
+  if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
+  if (lost) return failure("stability");
+  drift = now.drift;
+  return {};
+}
+
+/// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against
+/// the body, over its edge.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now,
+                                                             double motion) {
+  if (control.halves()) look_at_end();
+  if (auto inverted = find_inverted<B>(built)) return inverted->motion_over_edge = motion, inverted;
+  const Energies& e = now.energies;
+  if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return failure("non_finite");
+  for (std::size_t i = 0; i < hierarchy().levels.size(); ++i)
+    if (const std::string why = hierarchy().levels[i].integrator->failure(); !why.empty())
+      return failure("solver", motion, static_cast<int>(i), why);
+  if (const Contact<B>* contact = hierarchy()[0].contact())
+    if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
+      return failure("contact", motion, 0, "surface point " + std::to_string(point));
+  put_in = std::max(put_in, start - e.potential);
+  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of
+  // nothing. Twice, since discrete energies waver; never less than that of a thousandth of an edge
+  // per step
+  const LevelReport& finest = built.reports.front();
+  const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
+  const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
+  // else the elastic energy is not all there, or is as much as a step that lowers its potential
+  // lets it be
+  const bool stores = control.halves() && !judges && !is_viscous(problem.body);
+  if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed)
+    return failure("energy", motion);
+  // An explicit sub-step is about the time that sound takes across half an element. What leaves the
+  // body as a whole by more than an edge in it is faster than sound: elements there are passed
+  // through within a step, whatever the forces say. But for the law that is linear in any state,
+  // and stable at any amplitude.
+  if (finest.explicit_integrator && !linear && motion > 1) return failure("speed", motion);
+  return {};
+}
+
+/// Flags level 0's inverted elements as they are now. Without it the next step's first force would,
+/// which is early enough to stop, but too late to take this step again; likewise an element may
+/// have taken up energy that nothing has put in.
+template <class B>
+void Simulation<B>::Inside::look_at_end() {
+  const SolverLevel<B>& level = hierarchy()[0];
+  if (level.flags.evaluation.extent(0) > 0)
+    level.elasticity().force(level.exec(), level, level.state, std::numeric_limits<int>::max());
+}
+
+template <class B>
+Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level,
+                                         const std::string& reason) {
+  Diagnosis d = locate_failure<B>(kind, built, kept.levels, level, reason);
+  d.motion_over_edge = motion;
+  return d;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a simulation goes back: states that are kept, steps that are taken again, states from
+// outside.
+#include <algorithm>
+#include <cmath>
+#include <plica/core/text.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/simulation_inside.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double time_rounding = 1e-9;  // relative
+constexpr int keep_every = 20;          // macro steps
+// macro steps, at least, between the two states that are kept
+constexpr int long_ago = 200;
+// of a stepper, until its steps stay stable to where the run was
+constexpr int most_repairs = 8;
+
+}  // namespace
+
+// --- Recover
+// ----------------------------------------------------------------------------------------------------------------
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
+  Inside& s = *inside_;
+  std::optional<Diagnosis> still = bad;
+  if (s.built.stepper->repairs(bad) && repair(bad)) still.reset();
+  if (still && s.control.halves()) still = s.retry(*still);
+  if (!still) s.keep_at_times();
+  return still;
+}
+
+/// From the last kept state once more to where it is, by a stepper that can do better; then by the
+/// same from the state long before, if that is another one; then by one that does better still from
+/// there. False where the stepper cannot.
+template <class B>
+bool Simulation<B>::repair(const Diagnosis& bad) {
+  Inside& s = *inside_;
+  const Stepper<B>& stepper = *s.built.stepper;
+  const bool sees_late = stepper.sees_late();
+  const bool late = bad.kind == "stability" && sees_late;  // the last kept state is no better
+  const double there = s.time;
+  const auto go_on = [&] {
+    while (s.time < there) {
+      step();
+      if (const auto now = s.examine();
+          now && (now->kind == "non_finite" || now->kind == "inverted"))
+        return false;
+      if (s.after_repeated) s.after_repeated();
+    }
+    return !s.examine();
+  };
+  for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
+    if (attempt == 1 && s.older->steps == s.kept.steps) continue;
+    s.go_back(attempt == 0 ? s.kept : *s.older);
+    if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
+    // explicit steps do not bear what has grown in the last kept state, and may take very long to
+    // fail in it
+    if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
+    if (go_on()) return true;
+  }
+  return false;
+}
+
+/// Once more from the last kept state to where it is, in shorter parts. What is left of `bad` where
+/// that does not help.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
+  const double there = time;
+  go_back(kept);
+  ++rejected;
+  // Where it was the only step since, it is known to be bad as it was.
+  if (there <= time + (1 + time_rounding) * next_span() && !control.halve()) return bad;
+  while (time < there) {
+    if (const auto still = cover(true)) return still;
+    arrive();
+    if (after_repeated) after_repeated();
+  }
+  return {};
+}
+
+/// What parts of a macro step put together.
+template <class B>
+struct AddPart {
+  Doubles<B> part, sum;
+  Changing<B, double> size;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const { sum(i) += *size * part(i); }
+};
+
+/// The next macro step, in parts as the control says. With `checks` each part must pass them all,
+/// else only be solved. One that is not solved is halved as long as that leaves less of it; the
+/// shortest is taken as it is.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const Exec& exec = hierarchy().exec();
+  const double span = next_span();
+  const int numbers = static_cast<int>(wrench_sum.extent(0));
+  double least = all, size = 1;
+  for (control.begin(); !control.done();) {
+    size = control.size();
+    keep(*part_start);
+    advance(time + control.start() * span, size * span);
+    const double left = left_unsolved();
+    const auto bad = checks ? examine(size * span / built.macro_step) : std::nullopt;
+    if (bad || (left > 0 && left < least)) {
+      if (control.halve()) {
+        ++rejected, least = bad ? all : left;
+        go_back(*part_start);
+        continue;
+      }
+      if (bad) return ++rejected, bad;
+    }
+    least = all, unsolved += left > 0 ? 1 : 0;
+    if (size < 1 && control.start() == 0) fill(exec, wrench_sum, 0.0);
+    if (size < 1)
+      update_vertices<B>(exec, "plica::add_wrenches", numbers,
+                         AddPart<B>{wrench, wrench_sum, size});
+    control.pass();
+  }
+  if (size < 1) copy_memory(exec, wrench_sum, wrench);
+  return {};
+}
+
+template <class B>
+double Simulation<B>::Inside::left_unsolved() const {
+  double most = 0;
+  for (const auto& level : built.hierarchy->levels)
+    most = std::max(most, level.integrator->unsolved());
+  return most;
+}
+
+// --- Kept states, and states from outside
+// -----------------------------------------------------------------------------------
+
+template <class B>
+void Simulation<B>::on_repeated_step(std::function<void()> call) {
+  inside_->after_repeated = std::move(call);
+}
+
+template <class B>
+long Simulation<B>::earliest_kept() const {
+  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps)
+                        : inside_->kept.steps;
+}
+
+template <class B>
+void Simulation<B>::return_to_last_good() {
+  inside_->go_back(inside_->kept);
+}
+
+template <class B>
+void Simulation<B>::Inside::keep_at_times() {
+  if (!control.halves() && steps - kept.steps < keep_every) return;
+  if (older && kept.steps - older->steps >= long_ago) std::swap(kept, *older);
+  keep(kept);
+  motions.forget_before(older ? older->time : kept.time);
+}
+
+/// The state and the time as they are.
+template <class B>
+void Simulation<B>::Inside::keep(Kept& to) {
+  const Exec& exec = hierarchy().exec();
+  const auto& levels = hierarchy().levels;
+  if (to.levels.empty())
+    for (const auto& level : levels) to.levels.emplace_back("kept", level.model.vertices);
+  for (std::size_t i = 0; i < levels.size(); ++i) to.levels[i].copy(exec, levels[i].state);
+  if (is_viscous(problem.body)) {
+    to.stress.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
+  }
+  copy_memory(exec, memory, to.memory);
+  if (hierarchy()[0].contact()) {
+    to.contact.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].response().keep(exec, to.contact[i]);
+  }
+  to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
+}
+
+/// Nothing before it counts any more.
+template <class B>
+void Simulation<B>::Inside::keep_anew() {
+  keep(kept);
+  if (older) keep(*older);
+  motions.forget();
+}
+
+/// What is about to be changed from outside, or was.
+template <class B>
+void Simulation<B>::Inside::remember() {
+  for (const auto& level : hierarchy().levels) level.remember(time);
+}
+
+/// To a state of all levels; coarser ones start from level 0's anew.
+template <class B>
+void Simulation<B>::Inside::go_back(const Kept& to) {
+  copy_memory(hierarchy().exec(), to.memory, memory);
+  for (std::size_t i = 0; i < to.levels.size(); ++i)
+    hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
+  for (std::size_t i = 0; i < to.stress.size(); ++i)
+    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i],
+                                              to.stress[i]);
+  time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
+  hierarchy().clear_flags();
+  hierarchy().forget();
+  for (std::size_t i = 0; i < to.contact.size(); ++i) {
+    SolverLevel<B>& level = hierarchy().levels[i];
+    level.response().put_back(hierarchy().exec(), level, to.contact[i]);
+  }
+  if (const Contact<B>* contact = hierarchy()[0].contact()) {
+    contact->take_lost(hierarchy().exec());
+    motions.go_back(*contact, time);
+  }
+  built.stepper->begin(hierarchy());
+}
+
+/// Level 0's state has been replaced: the other levels follow.
+template <class B>
+void Simulation<B>::Inside::restart() {
+  hierarchy().clear_flags();
+  hierarchy().forget();
+  built.stepper->begin(hierarchy());
+  remember();
+  keep_anew();
+  budget_opens = true;
+}
+
+template <class B>
+void Simulation<B>::Inside::open_budget() {
+  const Energies e = meter.all(time);
+  start = put_in = e.total();
+  drift = meter.motion(Point::Zero()).drift;
+  kept.put_in = put_in, kept.drift = drift;
+  if (older) older->put_in = put_in, older->drift = drift;
+  budget_opens = false;
+}
+
+template <class B>
+void Simulation<B>::set_state(const std::vector<Point>& displacement,
+                              const std::vector<Point>& velocity) {
+  Inside& s = *inside_;
+  const State<B>& state = s.hierarchy()[0].state;
+  const auto expect = [&](const std::vector<Point>& all, const char* what) {
+    if (all.size() != state.u.extent(0))
+      throw InputError(text("set_state: ", all.size(), " ", what, " for ", state.u.extent(0),
+                            " vertices of level 0"));
+    const auto bad = std::ranges::find_if(all, [](const Point& p) { return !p.allFinite(); });
+    if (bad != all.end())
+      throw InputError(text("set_state: ", what, " ", bad - all.begin(),
+                            " is not finite; expected finite numbers"));
+  };
+  expect(displacement, "displacements"), expect(velocity, "velocities");
+  const auto copy = [&](const std::vector<Point>& from, const Vectors<B>& to, const char* what) {
+    plica::copy(s.hierarchy().exec(), to,
+                to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
+  };
+  s.remember();
+  s.hierarchy().exec().fence("plica::set_state");
+  copy(displacement, state.u, "displacements"), copy(velocity, state.v, "velocities");
+  s.restart();
+}
+
+template <class B>
+void Simulation<B>::set_time(double time) {
+  if (!std::isfinite(time))
+    throw InputError("set_time: the time is " + number(time) + "; expected a finite one");
+  Inside& s = *inside_;
+  s.remember();
+  for (const auto& level : s.hierarchy().levels)
+    if (level.viscosity) level.viscosity->set_time(time);
+  s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
+  s.hierarchy().forget();
+  s.keep_anew();
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

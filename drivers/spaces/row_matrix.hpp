@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/SparseCore>
+#include <plica/core/row_ranges.hpp>
+#include <utility>
+#include <vector>
+
+// Sparse matrices of the host by rows: what is done to all of their rows, by all threads.
+namespace plica {
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same
+/// bits for any number of threads.
+RowMatrix product(const RowMatrix& A, const RowMatrix& B);
+
+/// P^T A P of a symmetric A.
+RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
+
+/// The matrix of these rows of (column, value), columns ascending.
+RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows,
+                         Eigen::Index columns);
+
+/// Some of a matrix's rows, one after the other.
+struct MatrixRows {
+  std::vector<int> first{0}, column;
+  std::vector<double> value;
+
+  void add(int c, double v) { column.push_back(c), value.push_back(v); }
+  void end_row() { first.push_back(static_cast<int>(column.size())); }
+};
+
+/// The matrix of the rows of all parts, one after the other.
+RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows,
+                      Eigen::Index columns);
+
+/// A with column number(row, column, value) in place of a column, and without entries where that is
+/// negative. Numbers ascend with the columns.
+template <class Number>
+RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& number) {
+  const auto rows = static_cast<std::size_t>(A.rows());
+  std::vector<MatrixRows> parts(row_parts(rows));
+  for_row_parts(rows, [&](std::size_t p, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (RowMatrix::InnerIterator entry(A, static_cast<Eigen::Index>(i)); entry; ++entry)
+        if (const int column = number(entry.row(), static_cast<int>(entry.col()), entry.value());
+            column >= 0)
+          parts[p].add(column, entry.value());
+      parts[p].end_row();
+    }
+  });
+  return joined_rows(parts, A.rows(), columns);
+}
+
+/// The entries of A of which keep(row, column, value).
+template <class Keep>
+RowMatrix some_entries(const RowMatrix& A, const Keep& keep) {
+  return renumbered(A, A.cols(), [&](Eigen::Index row, int column, double value) {
+    return keep(row, column, value) ? column : -1;
+  });
+}
+
+}  // namespace plica

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <plica/drivers/linear/linear_solver.hpp>
+#include <plica/drivers/time/incremental_potential.hpp>
+#include <plica/drivers/time/integrator_parts.hpp>
+#include <plica/kernels/elastic/carried_pressures.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
+#include <plica/kernels/time/energies.hpp>
+#include <plica/kernels/time/stage_kernels.hpp>
+#include <plica/kernels/time/updates.hpp>
+#include <utility>
+
+namespace plica {
+
+/// Solves the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a
+/// level's state, by one linear solve about the start of the step (linearly implicit: Baraff &
+/// Witkin 1998) or by Newton's method on the incremental potential (Gast et al. 2015). Where nodal
+/// elements smooth their pressures, it carries these from solve to solve:
+/// kernels/elastic/carried_pressures.hpp.
+template <class B>
+class StageSolver {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+
+  StageSolver(const Level<B>& level, const IntegratorParts<B>& parts)
+      : options_(parts.implicit),
+        edge_(parts.edge),
+        may_invert_(parts.may_invert),
+        judged_(parts.implicit.newton_tolerance.value_or(
+            parts.conserves && !parts.contact ? conserving : balanced)),
+        aim_(parts.implicit.newton_tolerance ? judged_ : judged_ * finer()),
+        solver_(parts.make_linear_solver()),
+        base_("stage.base", level.model.vertices),
+        right_side_("plica::stage.right_side", level.model.vertices),
+        change_("plica::stage.change", level.model.vertices) {
+    const auto slots = static_cast<std::size_t>(level.model.rows.slots());
+    if (level.model.rows.excess.extent(0) > 0) {
+      carrying_ = zeros<Scalars<B>>("plica::stage.pressure", 3 * slots);
+      carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
+      last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
+    }
+    if (!parts.contact && !iterates()) return;
+    const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
+    von_mises_ = Scalars<B>("plica::stage.von_mises", elements),
+    volume_ = Scalars<B>("plica::stage.volume", elements);
+    dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
+    blocks_ = BlockSums<B>(static_cast<int>(
+        std::max({level.partial.extent(0), level.f.extent(0), volume_.extent(0)})));
+    result_ = Doubles<B>("plica::stage.result", 7);
+  }
+
+  /// The base (u~, v~), to be set before solve().
+  const State<B>& base() const { return base_; }
+
+  /// Takes the level's state from the step's start at `time` [s] to the stage, `ahead` of it. False
+  /// where Newton's method did not get there. `contact`: how it takes contact; a default one: not
+  /// at all.
+  bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights,
+             const ContactStage& contact = {}) {
+    contact_ = contact;
+    prescribe(level.exec(), level, base_, time + ahead);
+    if (!carries()) return solve_stage(level, time, ahead, weights);
+    const Scalars<B> pressure = std::exchange(level.nodal.pressure, carrying_);
+    if (fresh_) {
+      fill(level.exec(), change_, Real(0));
+      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      fresh_ = 0;
+    }
+    const bool solved = solve_stage(level, time, ahead, weights);
+    level.nodal.pressure = pressure;
+    return solved;
+  }
+
+  /// Whether Newton's method ever looks at what it has not solved.
+  bool judges() const { return result_.extent(0) > 0; }
+  /// [J]. Waits.
+  double kinetic(const SolverLevel<B>& level) const {
+    reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
+                 KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
+    return host_values(level.exec(), result_)[0];
+  }
+  /// Of the last stage that Newton's method did not solve: the part of the forces that is
+  /// unbalanced.
+  double unsolved() const { return unsolved_; }
+
+  /// Since begin(): the largest part of its forces that a stage left unbalanced, or the relative
+  /// residual of its one linear solve.
+  double residual() const { return residual_; }
+  void begin() { residual_ = 0; }
+
+  std::map<std::string, long> counters() const {
+    std::map<std::string, long> all = solver_->counters();
+    all.insert({{"linear_solves", solves_}, {"cg_iterations", iterations_}});
+    all.insert({{"cg_misses", misses_}, {"cg_indefinite", indefinite_}});
+    if (iterates() || newtons_ > 0)
+      all.insert({{"newton_iterations", newtons_}, {"line_searches", searches_}});
+    if (carries()) all.insert({"pressure_updates", updates_});
+    return all;
+  }
+  std::size_t bytes() const {
+    return solver_->bytes() +
+           sizeof(Real) * (4 * change_.span() + dead_.span() + von_mises_.span() + volume_.span() +
+                           carrying_.extent(0) + last_carried_.extent(0));
+  }
+  void persist(StateArchive<B>& archive) {
+    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &searches_})
+      archive.number(*count);
+    archive.number(residual_), archive.number(projecting_);
+    if (carries())
+      archive.number(updates_), archive.number(fresh_),
+          archive.field("the carried pressures", carried_);
+    solver_->persist(archive);
+  }
+
+ private:
+  static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
+  // part of the decrease that the slope promises
+  static constexpr double sufficient = 1e-4;
+  // part of the forces that may be left unbalanced
+  static constexpr double balanced = 3e-3, conserving = 1e-6;
+  // edges that nobody sees a body move by
+  static constexpr double still = 1e-11;
+  // of the least volume that a change of a state must leave
+  static constexpr double least_volume_part = 0.2;
+  static constexpr double first_tolerance = 0.01;  // of the first system
+  // systems in a row whose tangents are projected
+  static constexpr int contact_iterations = 20, projections = 3;
+  // of a stage's energies: what the potential gains less is lost in rounding
+  static constexpr double unseen = 1e-10;
+
+  ImplicitOptions options_;
+  double edge_;      ///< mean [m]
+  bool may_invert_;  ///< elements may
+  /// part of the forces: a stage that leaves no more is solved, one that leaves no more ends
+  double judged_, aim_;
+  std::unique_ptr<LinearSolver<B>> solver_;
+  State<B> base_;
+  Vectors<B> right_side_, change_, dead_;
+  Scalars<B> carrying_, carried_,
+      last_carried_;  ///< with room for the pressures, these, and those before the last solve
+  BlockSums<B> blocks_;
+  Doubles<B> result_;
+  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, searches_ = 0;
+  ContactStage contact_;
+  /// of the carried pressures; whether they are still to be taken from a state
+  long updates_ = 0, fresh_ = 1;
+  double residual_ = 0, unsolved_ = 0;
+  bool cut_ = false;  ///< the last change was shortened
+  /// systems for which tangents are projected without a new reason
+  long projecting_ = 0;
+  Scalars<B> von_mises_, volume_;  ///< of elements
+
+  bool iterates() const { return options_.newton_iterations > 1; }
+  bool carries() const { return carried_.extent(0) > 0; }
+  StageAt<B> at(const Level<B>& level, const ImplicitWeights& w) const {
+    return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
+  }
+
+  /// Whether nothing but inertia and the elements' stiffness is in a system.
+  static bool is_stiffness_alone(const SolverLevel<B>& level) {
+    return !level.contact() && level.followers.empty() && !level.viscosity &&
+           level.model.patches.damping.extent(0) == 0;
+  }
+
+  bool solve_stage(SolverLevel<B>& level, double time, double ahead,
+                   const ImplicitWeights& weights) {
+    if (touches(level) || iterates()) return minimise(level, time, ahead, weights);
+    level.linearise(level.state, time, weights, ahead, level.f);
+    const double tolerance = options_.relative_residual;
+    SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
+    if (out.indefinite && options_.tangent == "auto" && !level.followers.empty() &&
+        level.prescribed.count == 0) {
+      undo(level, weights, 1);  // the pressure takes more stiffness away than there is
+      if (!out.converged) --misses_;
+      out = correct(level, weights, false, true, tolerance);
+    }
+    residual_ = std::max(residual_, out.relative_residual);
+    return true;
+  }
+
+  /// One linear solve at the linearised state, and the state that follows from it.
+  SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start,
+                       bool positive, double tolerance) {
+    const int n = level.model.vertices;
+    const StageAt<B> stage = at(level, w);
+    Vectors<B> force = level.f, gap;
+    bool by_product = false;
+    if (from_start) {
+      gap = change_;
+      update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, gap});
+    }
+    SolveOutcome out;
+    level.book("solve", [&] {
+      if (positive) level.keep_tangents();
+      solver_->prepare(level, level.state, w, positive);
+      if (from_start && !positive && is_stiffness_alone(level))
+        by_product = solver_->multiply(level.exec(), gap, right_side_);
+    });
+    if (from_start && !by_product) {
+      if (!level.followers.empty()) {
+        copy(level.exec(), right_side_, force);
+        level.add_follower_product(level.state, gap, -1, positive, right_side_);
+        force = right_side_;
+      }
+      level.tangent(level.state, gap, 0, positive);
+    }
+    update_vertices<B>(
+        level.exec(), "plica::stage_right_side", n,
+        StageRightSide<B>{stage, force, level.partial, right_side_, gap, by_product});
+    level.book("solve",
+               [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
+    ++solves_, iterations_ += out.iterations;
+    misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
+    update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
+    if (carries()) {
+      copy(level.exec(), last_carried_, carried_);
+      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      ++updates_;
+    }
+    return out;
+  }
+
+  // --- Newton's method
+  // ----------------------------------------------------------------------------------------------------------
+
+  /// Whether contact acts in this stage.
+  bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
+
+  /// Elements and contact at once, from the step's start. Systems are solved as far as it pays
+  /// (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each further state has a lower potential,
+  /// with friction's caps as they are, and keeps a part of the least volume; then caps follow.
+  bool minimise(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
+    const double end = time + ahead;
+    // nobody watches where Newton's method looks
+    const ElementFlags<B> flags = std::exchange(level.flags, {});
+    if (touches(level))
+      level.book("contact", [&] {
+        level.response().begin_stage(level.exec(), level, level.state, time, contact_);
+      });
+    level.dead(end, dead_);
+    fill(level.exec(), change_, Real(0));
+    level.linearise(level.state, time, w, ahead, level.f);
+    IncrementalPotential now = here(level, end, w);
+    if (!may_invert_) now.volume = least_volume(level);
+    if (touches(level))
+      level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
+    // at rest, where no given motion starts
+    now.solved = level.prescribed.count == 0 &&
+                 std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    const int most = iterates() ? options_.newton_iterations : contact_iterations;
+    const bool once = !solver_->converges() && touches(level);
+    // the change is 0 where nothing moves
+    if (now.solved)
+      update_vertices<B>(level.exec(), "plica::stage_update", level.model.vertices,
+                         StageUpdate<B>{at(level, w), change_});
+    double tolerance = carries() ? options_.relative_residual : first_tolerance * finer();
+    for (int k = 0; k < most && !now.solved; ++k) {
+      ++newtons_;
+      const std::optional<IncrementalPotential> next =
+          descend(level, time, ahead, w, now, k, tolerance);
+      if (once || !next) break;
+      const bool lost = std::abs(next->slope) <= rounding(*next) && next->residual <= now.residual;
+      const double from = std::exchange(now, *next).residual;
+      if (touches(level)) follow_caps(level, end, w, now);
+      now.solved = is_balanced(now, w, aim_) || (lost && !touches(level));
+      if (!carries())
+        tolerance = finer() * std::clamp(0.1 * now.residual / from, 1e-4, first_tolerance);
+    }
+    level.flags = flags;
+    const double unbalanced = now.residual / std::max(now.forces, 1e-300);
+    if (!is_balanced(now, w, 0)) residual_ = std::max(residual_, unbalanced);
+    if (once || now.solved || is_balanced(now, w, judged_)) return true;
+    unsolved_ = unbalanced;
+    return false;
+  }
+
+  /// Whether what is unbalanced is no more than a part of the forces there are, which are the same
+  /// in a body that flies; or moves nothing.
+  bool is_balanced(const IncrementalPotential& now, const ImplicitWeights& w, double part) const {
+    return now.residual <=
+           std::max({options_.newton_residual, part * now.forces, unseen_force(now, w)});
+  }
+
+  void follow_caps(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+                   IncrementalPotential& now) {
+    ContactResponse<B>& contact = level.response();
+    contact.update_caps(level.exec(), level, level.state);
+    const ContactBalance by =
+        contact.linearise(level.exec(), level, level.state, w, 0, level.f, cut_);
+    const double volume = std::exchange(now, with_contact(potential(level, end, w), by)).volume;
+    now.volume = volume, now.forces += by.forces;
+  }
+
+  /// How much nearer than by themselves systems and forces are to be solved, as `relative_residual`
+  /// asks for less than its default.
+  double finer() const {
+    return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual);
+  }
+
+  /// What moves the body by no more than anybody sees in the step [N].
+  double unseen_force(const IncrementalPotential& p, const ImplicitWeights& w) const {
+    return still * edge_ * p.masses / w.a;
+  }
+
+  /// From a state that is linearised to the next, which then is, without contact in level.f: along
+  /// Newton's direction as far as it leads down. Where it does not, along that of the projected
+  /// tangents; none, and the state is where it was, where that does not either.
+  std::optional<IncrementalPotential> descend(SolverLevel<B>& level, double time, double ahead,
+                                              const ImplicitWeights& w,
+                                              const IncrementalPotential& now, int k,
+                                              double tolerance) {
+    const double end = time + ahead;
+    // given motions change what is compared
+    const bool first = k == 0, moving = first && level.prescribed.count > 0;
+    const bool may_project = options_.tangent == "auto";
+    bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
+    if (may_project && projecting_ > 0) --projecting_;
+    for (bool from_start = first;; from_start = false) {
+      const SolveOutcome out = correct(level, w, from_start, projected, tolerance);
+      if (touches(level) && !solver_->converges()) return now;
+      const double slope = vertex_terms(level, w, 1)[2];
+      // contact is that of where velocities lead to
+      const bool ahead_of_it = from_start && touches(level);
+      const bool leads_up = out.indefinite || (!ahead_of_it && !(slope < 0)),
+                 last = projected || !may_project;
+      double part = 1;
+      if (moving || last || !leads_up) {
+        const IncrementalPotential from = before(level, end, w, now);
+        const int most = last && !ahead_of_it ? most_halvings : halvings_unprojected;
+        if (auto next = shorten(level, end, w, from, ahead_of_it ? 0 : slope, moving, most, part))
+          return next;
+      }
+      undo(level, w, part);
+      if (last && !ahead_of_it) return {};
+      if (!out.converged) --misses_;  // and is solved again
+      if (may_project) projecting_ = carries() ? 0 : projections, projected = true;
+      level.linearise(level.state, end, w, 0, level.f);
+      if (touches(level))
+        level.response().linearise(level.exec(), level, level.state, w, 0, level.f);
+    }
+  }
+
+  /// Shortens the change that the state has made, to `part` of it, until the potential is lower and
+  /// no volume much less than the least was; none where it never is.
+  std::optional<IncrementalPotential> shorten(SolverLevel<B>& level, double end,
+                                              const ImplicitWeights& w,
+                                              const IncrementalPotential& now, double slope,
+                                              bool moving, int most, double& part) {
+    cut_ = false;
+    for (int i = 0;; ++i) {
+      const double volume = may_invert_ ? 1 : least_volume(level);
+      if (may_invert_ || !(now.volume > 0) || volume >= least_volume_part * now.volume) {
+        level.linearise(level.state, end, w, 0, level.f);
+        IncrementalPotential next = here(level, end, w);
+        next.slope *= part, next.volume = volume;
+        const bool falls = next.value - now.value <=
+                           sufficient * part * slope + std::max(rounding(now), rounding(next));
+        // where forces have no potential
+        const bool nearer = !touches(level) && next.residual < now.residual;
+        if (next.finite() && (moving || !now.finite() || falls || nearer)) return next;
+      }
+      if (i == most) return {};
+      ++searches_;
+      part /= 2, cut_ = true;
+      retreat(level, w, part);
+    }
+  }
+
+  /// What is lost in rounding where a potential is worked out [J].
+  double rounding(const IncrementalPotential& p) const {
+    return std::max(contact_.span > 0 ? unseen : 0.0,
+                    16.0 * Kokkos::Experimental::epsilon_v<Real>) *
+           p.scale;
+  }
+
+  /// Of the state whose forces are in level.f, with contact's energy.
+  IncrementalPotential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
+    const IncrementalPotential p = potential(level, end, w);
+    return touches(level)
+               ? with_contact(p, level.response().balance(level.exec(), level, level.state))
+               : p;
+  }
+  static IncrementalPotential with_contact(IncrementalPotential p, const ContactBalance& contact) {
+    p.value += contact.energy, p.scale += contact.energy;
+    return p;
+  }
+
+  /// What `now` was before the last change, with the pressures that are carried since.
+  IncrementalPotential before(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+                              IncrementalPotential now) const {
+    if (!carries()) return now;
+    now.value = vertex_terms(level, w, 1)[0];
+    retreat(level, w, 1);
+    now.value += stored(level, end);
+    retreat(level, w, -1);
+    return now;
+  }
+
+  /// The least volume ratio of an element, or 1.
+  double least_volume(const SolverLevel<B>& level) const {
+    level.elasticity().stress(level.exec(), level, level.state.u, von_mises_, volume_);
+    reduce<B, 1, LackOfVolume<B>, Sums<1, 1>>(level.exec(), "plica::least_volume",
+                                              static_cast<int>(volume_.extent(0)), {volume_},
+                                              blocks_, result_);
+    return 1 - host_values(level.exec(), result_)[0];
+  }
+
+  void retreat(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+    update_vertices<B>(level.exec(), "plica::stage_retreat", level.model.vertices,
+                       StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
+  }
+
+  /// Takes back what is left of a change.
+  void undo(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+    retreat(level, w, part);
+    if (carries()) copy(level.exec(), carried_, last_carried_);
+  }
+
+  std::array<double, 7> read(const Exec& exec) const {
+    const std::vector<double> sums = host_values(exec, result_);
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
+  }
+  /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
+  std::array<double, 7> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w,
+                                     double back) const {
+    reduce<B, 7>(level.exec(), "plica::stage_potential", level.model.vertices,
+                 StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)},
+                 blocks_, result_);
+    return read(level.exec());
+  }
+  /// Of the state whose forces are in level.f.
+  IncrementalPotential potential(const SolverLevel<B>& level, double end,
+                                 const ImplicitWeights& w) const {
+    const auto terms = vertex_terms(level, w, 0);
+    const double energy = stored(level, end);
+    return {terms[0] + energy,
+            std::sqrt(terms[1]),
+            terms[2],
+            terms[3] + std::abs(energy),
+            std::sqrt(terms[4]) + std::sqrt(terms[5]),
+            std::sqrt(terms[6])};
+  }
+  /// Of elements and pressures that follow the body at the level's state [J].
+  double stored(const SolverLevel<B>& level, double end) const {
+    level.incremental_energy(level.state);
+    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
+                 FirstComponent<B>{level.partial}, blocks_, result_);
+    return read(level.exec())[0] + level.follower_energy(end);
+  }
+};
+
+}  // namespace plica
