@@ -28,29 +28,49 @@ struct Backend {
                                    : 1;
 };
 
-/// The backends that are built. Tests and the program walk this list; a new one is one more line.
-#if defined(KOKKOS_ENABLE_SERIAL) && !defined(PLICA_LIKE_DEVICE)
-#define PLICA_FOR_SERIAL(DO) DO(float, Kokkos::Serial) DO(double, Kokkos::Serial)
-#define PLICA_ON_SERIAL(DO) DO(Kokkos::Serial)
+// The backends that simulations run in. Tests and the program walk this list; another one is one
+// more line. PLICA_WITHOUT_FLOAT and PLICA_WITHOUT_SERIAL leave some out: see PLICA_BACKENDS in
+// CMakeLists.txt.
+#ifdef PLICA_WITHOUT_FLOAT
+#define PLICA_IN_PRECISIONS(DO, Exec) DO(double, Exec)
 #else
-#define PLICA_FOR_SERIAL(DO)
+#define PLICA_IN_PRECISIONS(DO, Exec) DO(float, Exec) DO(double, Exec)
+#endif
+#define PLICA_IN_BOTH(DO, Exec) DO(float, Exec) DO(double, Exec)
+#if defined(KOKKOS_ENABLE_SERIAL) && !defined(PLICA_LIKE_DEVICE) && !defined(PLICA_WITHOUT_SERIAL)
+#define PLICA_ON_SERIAL(DO) DO(Kokkos::Serial)
+#define PLICA_FOR_SERIAL(IN, DO) IN(DO, Kokkos::Serial)
+#else
 #define PLICA_ON_SERIAL(DO)
+#define PLICA_FOR_SERIAL(IN, DO)
 #endif
 #if defined(KOKKOS_ENABLE_OPENMP)
-#define PLICA_FOR_OPENMP(DO) DO(float, Kokkos::OpenMP) DO(double, Kokkos::OpenMP)
 #define PLICA_ON_OPENMP(DO) DO(Kokkos::OpenMP)
+#define PLICA_FOR_OPENMP(IN, DO) IN(DO, Kokkos::OpenMP)
 #else
-#define PLICA_FOR_OPENMP(DO)
 #define PLICA_ON_OPENMP(DO)
+#define PLICA_FOR_OPENMP(IN, DO)
 #endif
 #if defined(KOKKOS_ENABLE_CUDA)
-#define PLICA_FOR_CUDA(DO) DO(float, Kokkos::Cuda) DO(double, Kokkos::Cuda)
 #define PLICA_ON_CUDA(DO) DO(Kokkos::Cuda)
+#define PLICA_FOR_CUDA(IN, DO) IN(DO, Kokkos::Cuda)
 #else
-#define PLICA_FOR_CUDA(DO)
 #define PLICA_ON_CUDA(DO)
+#define PLICA_FOR_CUDA(IN, DO)
 #endif
-#define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_SERIAL(DO) PLICA_FOR_OPENMP(DO) PLICA_FOR_CUDA(DO)
+#define PLICA_FOR_ALL_SPACES(IN, DO) \
+  PLICA_FOR_SERIAL(IN, DO) PLICA_FOR_OPENMP(IN, DO) PLICA_FOR_CUDA(IN, DO)
+#define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_PRECISIONS, DO)
+/// These, and float beside each in double: preconditioners of runs in double work in float.
+#define PLICA_FOR_EACH_PRECISION(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_BOTH, DO)
+
+/// Whether simulations run in that precision.
+template <class Real>
+inline constexpr bool is_built = true;
+#ifdef PLICA_WITHOUT_FLOAT
+template <>
+inline constexpr bool is_built<float> = false;
+#endif
 
 /// The execution spaces alone.
 #define PLICA_FOR_EACH_SPACE(DO) PLICA_ON_SERIAL(DO) PLICA_ON_OPENMP(DO) PLICA_ON_CUDA(DO)

@@ -41,7 +41,7 @@ void describe(V& v, Selection& o) {
   v.one_of();
   v.alternative("box", o, Case<Box>{}, "what is inside, at rest");
   v.alternative("sphere", o, Case<BallSelection>{}, "what is inside, at rest");
-  v.alternative("plane", o, Case<HalfSpaceSelection>{},
+  v.alternative("half_space", o, Case<HalfSpaceSelection>{},
                 "what lies on the plane or below it, at rest");
   v.alternative("group", o, As<&GroupSelection::name, Text>(Text{}),
                 "a named group of the mesh file: points, lines, surfaces or a volume");
@@ -164,7 +164,7 @@ template <class V>
 void describe(V& v, Motion& o) {
   v.alternative("velocity", o, As<&SteadyMotion::velocity, Vector>(Vector{velocity}),
                 "with which it moves from the start");
-  v.alternative("path", o, CaseList<&PathMotion::knots>{},
+  v.alternative("curve", o, CaseList<&PathMotion::knots>{},
                 "displacements at given times, straight in between; before the first and after the "
                 "last it stays");
   v.alternative("sine", o, Case<SineMotion>{},
@@ -198,7 +198,7 @@ void describe(V& v, Turn& o) {
                 As<&SteadyTurn::angular_velocity, Quantity>(Quantity{angular_velocity}),
                 "with which it turns from the start");
   v.alternative(
-      "path", o.angle, CaseList<&PathTurn::knots>{},
+      "curve", o.angle, CaseList<&PathTurn::knots>{},
       "angles at given times, straight in between; before the first and after the last it stays");
   v.alternative("sine", o.angle, Case<SineTurn>{},
                 "swings: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
@@ -226,7 +226,7 @@ void describe(V& v, SineCourse& o) {
 template <class V>
 void describe(V& v, EnclosedVolume& o) {
   v.required("ratio", o.ratio, Quantity{plain, positive},
-             "to that at rest, when the course is at 1");
+             "to that at rest, when the curve is at 1");
   v.required("bulk_modulus", o.bulk_modulus, Quantity{pressure, positive},
              "of the fluid: its pressure over the part of the volume that is missing");
 }
@@ -249,7 +249,7 @@ void describe(V& v, LoadOptions& o) {
   v.at_most_one();
   v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
                 "rises smoothly from zero within this time");
-  v.alternative("course", o.course, CaseList<&PolygonCourse::knots>{},
+  v.alternative("curve", o.course, CaseList<&PolygonCourse::knots>{},
                 "factors at given times, straight in between, constant before and after");
   v.alternative("sine", o.course, Case<SineCourse>{}, "times sin(2 pi frequency t + phase)");
 }
@@ -292,7 +292,8 @@ void describe(V& v, Body& o) {
     "how strains follow from the vertices, of each level");
   v("stabilisation", o.stabilisation, Quantity{plain, {.min = 0.2, .max = 1}},
     "beta of nodal elements: smaller for thin bending (0.3), larger for clean high modes (0.6)");
-  v("pressure", o.pressure, Name{"pressure", pressures}, "of nodal elements");
+  v("volumetric_smoothing", o.pressure, Name{"volumetric_smoothing", pressures},
+    "whether nodal elements smooth their volume changes, as nearly incompressible tissue needs");
   v("material", o.material, Group{}, "what the body is made of");
   v("fibres", o.material.fibres, Group{}, "of laws with fibres: their directions at rest");
   v("regions", o.regions, Map{},

@@ -67,7 +67,7 @@ void describe(V& v, ObstacleOptions& o) {
     "of an obstacle with inertia, at t = 0; left out: the shape's origin");
   v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion and its turn");
   v("grasp", o.grasp, Group{}, "it takes hold of the surface points near it, and lets them go");
-  v("turn", o.turn, Group{},
+  v("rotate", o.turn, Group{},
     "about an axis that goes along with its motion; of one with mass and inertia what its coupling "
     "pulls it to");
   v.at_most_one();

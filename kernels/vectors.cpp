@@ -220,6 +220,6 @@ void fill_from_hash(const typename B::Exec& exec, const char* label, const Scala
       const Exec&, const char*, const Scalars<Backend<Real, Exec>>&,                               \
       const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,                  \
       const Doubles<Backend<Real, Exec>>&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -134,7 +134,8 @@ std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection
 void expect_without_name(const Selection& selection, const std::string& option) {
   if (name_in(selection))
     throw InputError(
-        option + ": a surface has no groups and regions; expected box, sphere, plane or nearest");
+        option +
+        ": a surface has no groups and regions; expected box, sphere, half_space or nearest");
 }
 
 std::vector<int> select_points(const std::vector<Point>& points, const Selection& selection,

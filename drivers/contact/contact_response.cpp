@@ -326,8 +326,7 @@ std::size_t ContactResponse<B>::bytes() const {
   return all;
 }
 
-// --- What a step takes from the last
-// ----------------------------------------------------------------------------------------
+// --- What a step takes from the last ---
 
 template <class B>
 template <class Use>

@@ -7,6 +7,8 @@ namespace plica {
   template std::unique_ptr<Obstacle<Backend<float, Exec>>> make_obstacle( \
       const ObstacleOptions&, const DepthWatch<Backend<float, Exec>>&,    \
       const Doubles<Backend<float, Exec>>&, int, double);
+#ifndef PLICA_WITHOUT_FLOAT
 PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE)
+#endif
 
 }  // namespace plica

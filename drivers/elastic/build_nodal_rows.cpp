@@ -282,6 +282,6 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
       const TetMesh&, const NodalConstants&);                                    \
   template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
       const NodalRows<Backend<Real, Exec>>&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

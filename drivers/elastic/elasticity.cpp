@@ -17,8 +17,9 @@ std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Elemen
   std::unique_ptr<Elasticity<B>> made;
   Materials::visit(material, [&](auto m) {
     using Material = KernelsOf<decltype(m)>;
-    made = element == Element::nodal ? make_nodal_elasticity<B, Material>()
-                                     : make_linear_elasticity<B, Material>();
+    if (element == Element::nodal) made = make_nodal_elasticity<B, Material>();
+    if constexpr (is_built<typename B::Real>)
+      if (element == Element::linear) made = make_linear_elasticity<B, Material>();
   });
   if (!made) throw InputError(unknown_name("material", material, names(materials())));
   return made;
@@ -27,6 +28,6 @@ std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Elemen
 #define PLICA_INSTANTIATE(Real, Exec)                                                             \
   template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>( \
       std::string_view, Element);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -319,6 +319,6 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
                                                       const std::vector<FibreAxes>&);      \
   template Scalars<Backend<Real, Exec>> device_fibres(                                     \
       const NodalRows<Backend<Real, Exec>>&, const TetMesh&, const std::vector<FibreAxes>&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

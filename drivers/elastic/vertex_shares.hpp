@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/grouping.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/core/to_device.hpp>
-#include <plica/meshes/grouping.hpp>
 #include <span>
 
 namespace plica {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <plica/core/time_functions.hpp>
 #include <plica/drivers/level/integrator.hpp>
+#include <plica/drivers/level/solver_level.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/elastic/kept_tangents.hpp>
 #include <plica/kernels/elastic/lost_stress.hpp>

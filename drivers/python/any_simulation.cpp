@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <plica/core/precision.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -264,12 +265,10 @@ std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
 
 std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene,
                                                const std::string& precision) {
-  if (precision != "float" && precision != "double")
-    throw InputError(unknown_name("precision", precision, {"float", "double"}));
   start_kokkos();
   using Exec = Kokkos::DefaultExecutionSpace;
-  return precision == "float" ? make<Backend<float, Exec>>(std::move(scene))
-                              : make<Backend<double, Exec>>(std::move(scene));
+  return in_precision<Exec>(
+      precision, [&]<class B>(std::type_identity<B>) { return make<B>(std::move(scene)); });
 }
 
 }  // namespace plica::python

@@ -22,6 +22,7 @@
 #include <plica/drivers/app/report/report.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
@@ -110,7 +111,7 @@ ScenePtr load(const std::string& file, const std::string& json, const std::strin
   app::Tree tree =
       file.empty() ? app::tree_of(nlohmann::ordered_json::parse(json), name) : app::read_tree(file);
   for (const auto& [path, value] : overrides)
-    app::override_value(tree, path + "=" + value, path + "=" + value);
+    app::set_value(tree, path + "=" + value, path + "=" + value);
   return std::make_shared<app::Scene>(app::load_scene(tree));
 }
 

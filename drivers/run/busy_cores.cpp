@@ -39,8 +39,7 @@ std::optional<double> CoreWait::share(int threads) const {
   return std::clamp((*now - *waited_) / (threads * wall.count()), 0.0, 1.0);
 }
 
-// --- ThreadChoice
-// -----------------------------------------------------------------------------------------------------------
+// --- ThreadChoice ---
 
 ThreadChoice::ThreadChoice(int all) : rungs_{std::max(all, 1)} {
   if (all > 2) rungs_.push_back(all - 1);
@@ -67,8 +66,7 @@ void ThreadChoice::look(double now, double per_step, double waited) {
   }
 }
 
-// --- SharedCores
-// ------------------------------------------------------------------------------------------------------------
+// --- SharedCores ---
 
 template <class B>
 SharedCores<B>::SharedCores(const Exec& all) : all_(all), choice_(all.concurrency()) {}

@@ -120,7 +120,7 @@ std::vector<std::string> doubts(const Problem& problem) {
         path && path->knots.front().displacement.norm() > 0)
       sentences.push_back(
           "body.prescribed." + std::to_string(i) +
-          ".path does not start at [0, 0, 0]: the vertices jump there at the start");
+          ".curve does not start at [0, 0, 0]: the vertices jump there at the start");
   return sentences;
 }
 

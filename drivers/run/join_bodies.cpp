@@ -37,7 +37,7 @@ void expect_alike(const NamedBody& first, const NamedBody& other) {
   const Body &a = first.second, &b = other.second;
   same("element", a.element, b.element);
   same("stabilisation", a.stabilisation, b.stabilisation);
-  same("pressure", a.pressure, b.pressure);
+  same("volumetric_smoothing", a.pressure, b.pressure);
   same("material.model", a.material.model, b.material.model);
   same("material.volume", a.material.volume, b.material.volume);
   same("material.convention", a.material.convention, b.material.convention);

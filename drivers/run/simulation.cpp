@@ -62,8 +62,7 @@ const Problem& steppable(const Problem& p) {
 
 }  // namespace
 
-// --- Set-up
-// -----------------------------------------------------------------------------------------------------------------
+// --- Set-up ---
 
 template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
@@ -99,8 +98,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   open_budget();
 }
 
-// --- Step
-// -------------------------------------------------------------------------------------------------------------------
+// --- Step ---
 
 template <class B>
 void Simulation<B>::step() {
@@ -172,8 +170,7 @@ std::optional<Diagnosis> Simulation<B>::step_checked() {
   return bad;
 }
 
-// --- Check
-// ------------------------------------------------------------------------------------------------------------------
+// --- Check ---
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {

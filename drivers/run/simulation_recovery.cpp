@@ -21,8 +21,7 @@ constexpr int most_repairs = 8;
 
 }  // namespace
 
-// --- Recover
-// ----------------------------------------------------------------------------------------------------------------
+// --- Recover ---
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
@@ -134,8 +133,7 @@ double Simulation<B>::Inside::left_unsolved() const {
   return most;
 }
 
-// --- Kept states, and states from outside
-// -----------------------------------------------------------------------------------
+// --- Kept states, and states from outside ---
 
 template <class B>
 void Simulation<B>::on_repeated_step(std::function<void()> call) {

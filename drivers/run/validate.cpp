@@ -3,6 +3,7 @@
 #include <plica/core/describe.hpp>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
+#include <plica/core/time_functions.hpp>
 #include <plica/drivers/body/body_parts.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/contact/turning.hpp>
@@ -164,7 +165,7 @@ void check_inertia(const std::string& path, const ObstacleOptions& o) {
                        " is of an obstacle that turns by the torque on it; expected " + path +
                        ".inertia, too, or neither");
   };
-  expect_inertia(o.mass && o.turn, ".turn, beside mass,");
+  expect_inertia(o.mass && o.turn, ".rotate, beside mass,");
   expect_inertia(o.centre_of_mass.has_value(), ".centre_of_mass");
   expect_inertia(o.coupling.angular_stiffness > 0 || o.coupling.angular_damping,
                  ".coupling.angular_stiffness");
@@ -286,7 +287,8 @@ void check_elements(const Body& body, std::size_t levels) {
                      std::to_string(body.element.size()));
   const MaterialInfo& material = *find_material(body.material.model);
   if (body.pressure == "smoothed" && !(material.with_lambda && material.rotation_invariant))
-    throw InputError("body.pressure is smoothed, but material " + std::string(material.name) +
+    throw InputError("body.volumetric_smoothing is smoothed, but material " +
+                     std::string(material.name) +
                      " has no stiffness for the volume alone at finite strains; expected plain or "
                      "auto, or another material");
 }

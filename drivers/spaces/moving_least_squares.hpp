@@ -2,8 +2,8 @@
 #pragma once
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <plica/drivers/spaces/edge_graph.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
-#include <plica/meshes/edge_graph.hpp>
 #include <vector>
 
 namespace plica {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
 #include <plica/core/error.hpp>
+#include <plica/core/precision.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
@@ -306,9 +307,10 @@ StabilityResult stability(const Problem& problem, const StudyOptions& options,
   validate(problem);
   if (!(options.duration > 0)) throw InputError("stability: the duration is not above 0");
   check_study(problem, options);
-  if (options.precision.empty() || options.precision.front() == "double")
-    return Search<Backend<double, Exec>>(problem, options, watch).all();
-  return Search<Backend<float, Exec>>(problem, options, watch).all();
+  const std::string precision = options.precision.empty() ? "double" : options.precision.front();
+  return in_precision<Exec>(precision, [&]<class B>(std::type_identity<B>) {
+    return Search<B>(problem, options, watch).all();
+  });
 }
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <plica/core/error.hpp>
+#include <plica/core/precision.hpp>
 #include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/study_run.hpp>
@@ -139,11 +140,11 @@ class Measured {
   std::pair<int, int> part_;  // which of how many runs
 };
 
-template <class Real>
+template <class B>
 StudyRun run(const Problem& problem, const StudyRunOptions& options) {
   const Exec exec = instance<Exec>(options.threads);
   try {
-    return Measured<Backend<Real, Exec>>(problem, exec, options).all();
+    return Measured<B>(problem, exec, options).all();
   } catch (const InputError& error) {
     StudyRun refused;
     refused.status = "refused", refused.reason = error.what();
@@ -160,10 +161,8 @@ int timed_runs_of(double wall_time, int asked) {
 void check_threads(int threads) { instance<Exec>(threads); }
 
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options) {
-  if (options.precision == "double") return run<double>(problem, options);
-  if (options.precision == "float") return run<float>(problem, options);
-  throw InputError("study.precision: " +
-                   unknown_name("precision", options.precision, {"float", "double"}));
+  return in_precision<Exec>(
+      options.precision, [&]<class B>(std::type_identity<B>) { return run<B>(problem, options); });
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <plica/core/keys.hpp>
 #include <string>
 #include <vector>
 

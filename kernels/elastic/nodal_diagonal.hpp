@@ -145,7 +145,7 @@ void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const V
                                              const NodalRows<__VA_ARGS__>&,         \
                                              const RowDiagonal<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_DIAGONAL(Real, Exec) PLICA_NODAL_DIAGONAL(extern, Backend<Real, Exec>)
-PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_DIAGONAL)
+PLICA_FOR_EACH_PRECISION(PLICA_EXTERN_NODAL_DIAGONAL)
 #undef PLICA_EXTERN_NODAL_DIAGONAL
 
 }  // namespace plica

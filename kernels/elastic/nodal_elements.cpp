@@ -7,6 +7,6 @@ namespace plica {
   PLICA_NODAL_ROWS(, Backend<Real, Exec>)     \
   PLICA_NODAL_ELEMENTS(, Backend<Real, Exec>) \
   PLICA_NODAL_DIAGONAL(, Backend<Real, Exec>)
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

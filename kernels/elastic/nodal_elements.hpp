@@ -387,7 +387,7 @@ void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vec
       const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&,       \
       const Scalars<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ELEMENTS(Real, Exec) PLICA_NODAL_ELEMENTS(extern, Backend<Real, Exec>)
-PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ELEMENTS)
+PLICA_FOR_EACH_PRECISION(PLICA_EXTERN_NODAL_ELEMENTS)
 #undef PLICA_EXTERN_NODAL_ELEMENTS
 
 }  // namespace plica

@@ -259,7 +259,7 @@ void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>
                                              const NodalRows<__VA_ARGS__>&,                   \
                                              const RowForces<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ROWS(Real, Exec) PLICA_NODAL_ROWS(extern, Backend<Real, Exec>)
-PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ROWS)
+PLICA_FOR_EACH_PRECISION(PLICA_EXTERN_NODAL_ROWS)
 #undef PLICA_EXTERN_NODAL_ROWS
 
 }  // namespace plica

@@ -20,7 +20,7 @@ PRESS = {
     "duration": "40 ms",
     "body": {
         "levels": [{"box": {"size": [0.1, 0.1, 0.04], "cells": [4, 4, 2]}}],
-        "fixed": [{"plane": {"normal": [0, 0, 1]}}],
+        "fixed": [{"half_space": {"normal": [0, 0, 1]}}],
         "surface": {"boundary": True},
     },
     "contact": {"obstacles": [{"name": "finger", "sphere": {"centre": [0.05, 0.05, 0.058], "radius": 0.02}}]},
@@ -56,7 +56,7 @@ def test_obstacles_are_moved_by_the_caller():
 def test_obstacles_are_turned_by_the_caller():
     lever = {"name": "lever", "capsule": {"from": [0.05, 0.05, 0.07], "to": [0.25, 0.05, 0.07], "radius": 0.01}}
     turn = {"about": [0.25, 0.05, 0.07], "axis": [0, 1, 0]}
-    sim = plica.Simulation(PRESS | {"contact": {"obstacles": [lever | {"turn": turn}]}})
+    sim = plica.Simulation(PRESS | {"contact": {"obstacles": [lever | {"rotate": turn}]}})
     for n in range(1, 41):
         sim.move_obstacle("lever", [0, 0, 0], [0, -0.004 * n, 0])
         sim.step()

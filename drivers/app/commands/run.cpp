@@ -11,6 +11,7 @@
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/scene/load_bodies.hpp>
+#include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/cycles/him/advice.hpp>
 #include <plica/drivers/run/busy_cores.hpp>
@@ -252,8 +253,8 @@ Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
     throw InputError("cannot resume in " + arguments.precision + ": the run is in " +
                      from.precision);
   Tree tree = arguments.scene.empty() ? from.scene : read_tree(arguments.scene);
-  for (const Override& given : arguments.overrides)
-    override_value(tree, given.assignment, given.label);
+  for (const Override& given : arguments.overrides) set_value(tree, given.assignment, given.label);
+  use_present_keys(tree);
   tree = shared_integration(tree);  // as that of the checkpoint
   if (const std::string difference = first_difference(from.scene, tree, "duration");
       !difference.empty())

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <plica/core/precision.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/cycles/plan_steps.hpp>
 #include <plica/drivers/run/simulation.hpp>
@@ -120,8 +121,7 @@ auto with_simulation(const Scene& scene, const std::string& precision,
     return action(scene, *simulation, machine, progress.finish());
   };
   using Exec = Kokkos::DefaultExecutionSpace;
-  return precision == "float" ? run(std::type_identity<Backend<float, Exec>>{})
-                              : run(std::type_identity<Backend<double, Exec>>{});
+  return in_precision<Exec>(precision.empty() ? "double" : precision, run);
 }
 
 /// The scene that the arguments name, with its meshes; its warnings go to the standard error.

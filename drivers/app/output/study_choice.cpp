@@ -7,6 +7,7 @@
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
+#include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/steppers.hpp>
 #include <plica/drivers/run/registry.hpp>
@@ -129,7 +130,7 @@ std::vector<Override> settings_of_study(const std::filesystem::path& folder,
                                         const std::vector<Override>& overrides) {
   const std::string file = (folder / "study.json").string();
   Tree tree = read_tree(scene);
-  for (const Override& given : overrides) override_value(tree, given.assignment, given.label);
+  for (const Override& given : overrides) set_value(tree, given.assignment, given.label);
   const Tree* integration = tree.find("integration");
   const Tree* asked = integration ? integration->find("error_class") : nullptr;
   const std::string error_class = asked ? asked->text : IntegrationOptions().error_class;

@@ -6,6 +6,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
@@ -261,7 +262,7 @@ void check_probes(Scene& scene, const Tree& tree) {
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Tree tree = read_tree(file);
-  for (const Override& given : overrides) override_value(tree, given.assignment, given.label);
+  for (const Override& given : overrides) set_value(tree, given.assignment, given.label);
   return load_scene(tree);
 }
 
@@ -273,9 +274,13 @@ Scene load_body(const Tree& tree) {
 }
 
 Scene load_scene(const Tree& given) {
-  const Tree tree = shared_integration(given);
+  Tree present = given;
+  use_present_keys(present);
+  const Tree tree = shared_integration(present);
   Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);
   with_places(tree, [&] { validate(scene.problem); });
+  for (std::string& warning : warnings_of_older_keys(present))
+    scene.warnings.push_back(std::move(warning));
   for (const std::string& doubt : doubts(scene.problem))
     scene.warnings.push_back(scene.file + ": " + doubt);
   check_probes(scene, tree);

@@ -14,11 +14,12 @@ namespace plica::app {
 struct Tree {
   enum class Kind { nothing, scalar, list, map };
   Kind kind = Kind::nothing;
-  std::string text;         ///< of a scalar
-  std::vector<Tree> items;  ///< of a list, or the values of a map, in the order of the file
-  std::string key;          ///< under which a map holds it
-  Where where;              ///< of the value
-  Where key_where;          ///< of its key; for an entry of a list that of the value
+  std::string text;            ///< of a scalar
+  std::vector<Tree> items;     ///< of a list, or the values of a map, in the order of the file
+  std::string key;             ///< under which a map holds it
+  Where where;                 ///< of the value
+  Where key_where;             ///< of its key; for an entry of a list that of the value
+  std::string older_key = {};  ///< the older name of its key that the file has; empty: none
 
   /// the value of that key, null when there is none
   const Tree* find(std::string_view name) const;

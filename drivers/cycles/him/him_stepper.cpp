@@ -21,8 +21,7 @@ constexpr int most_explicit = 1 << 14;  // times the sub-steps that level 0 take
 
 }  // namespace
 
-// --- Set-up
-// -----------------------------------------------------------------------------------------------------------------
+// --- Set-up ---
 
 template <class B>
 void HimStepper<B>::plan(StepperSetup<B>& setup) {
@@ -79,8 +78,7 @@ void HimStepper<B>::forget(const Exec& exec) {
   fill(exec, fields_.contact.force, Real(0));
 }
 
-// --- Step
-// -------------------------------------------------------------------------------------------------------------------
+// --- Step ---
 
 template <class B>
 void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
@@ -155,8 +153,7 @@ void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
   level.response().add_impulse(exec, level, level.state, time, t);
 }
 
-// --- Shorter steps, and longer ones again
-// -----------------------------------------------------------------------------------
+// --- Shorter steps, and longer ones again ---
 
 template <class B>
 bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {

@@ -111,7 +111,7 @@ body:
     - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
     - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
   material: {young_modulus: 1 MPa, poisson_ratio: 0.3, model: )" +
-         material + "}\n  fixed: [{plane: {normal: [1, 0, 0]}}]\n" + more;
+         material + "}\n  fixed: [{half_space: {normal: [1, 0, 0]}}]\n" + more;
 }
 
 /// A folder with a scene, and the program run in it.

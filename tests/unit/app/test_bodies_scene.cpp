@@ -19,7 +19,7 @@ bodies:
   left:
     levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}, {box: {size: [1, 1, 1], cells: [1, 1, 1]}}]
     material: {young_modulus: 30 kPa}
-    fixed: [{plane: {normal: [0, 0, 1]}}]
+    fixed: [{half_space: {normal: [0, 0, 1]}}]
     surface: {boundary: true}
   right:
     levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]

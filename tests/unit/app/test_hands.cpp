@@ -17,7 +17,7 @@ gravity: [0, 0, -9.81]
 body:
   levels: [{box: {size: [0.1, 0.1, 0.1], cells: [6, 6, 6]}}, {box: {size: [0.1, 0.1, 0.1], cells: [3, 3, 3]}}]
   material: {model: neo_hookean, young_modulus: 20 kPa, poisson_ratio: 0.3, density: 1000}
-  fixed: [{plane: {normal: [0, 0, 1]}}]
+  fixed: [{half_space: {normal: [0, 0, 1]}}]
 )";
 
 /// Least volume ratio of an element of level 0 at any time of a pull.

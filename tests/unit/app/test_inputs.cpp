@@ -24,8 +24,8 @@ Scene with(const std::vector<std::string>& sets) { return scene_of(sound_scene, 
 TEST(Inputs, Selections) {
   const Scene scene =
       with({"body.fixed=[{box: {min: [0, 0, 0], max: [0, 1, 1]}}, {sphere: {radius: 2 cm}},"
-            " {plane: {point: [0, 0, 1 cm]}}, {nearest: [1, 2, 3 mm]}, {region: stiff}]",
-            "body.regions.stiff={where: {plane: {point: [5 cm, 0, 0], normal: [1, 0, 0]}}, "
+            " {half_space: {point: [0, 0, 1 cm]}}, {nearest: [1, 2, 3 mm]}, {region: stiff}]",
+            "body.regions.stiff={where: {half_space: {point: [5 cm, 0, 0], normal: [1, 0, 0]}}, "
             "density: 3}"});
   const auto& fixed = scene.problem.body.fixed;
   ASSERT_EQ(fixed.size(), 5u);
@@ -43,7 +43,7 @@ TEST(Inputs, Selections) {
 TEST(Inputs, Motions) {
   const Scene scene =
       with({"body.prescribed=[{nearest: [0, 0, 0], velocity: [1 cm/s, 0, 0]}, {nearest: [1, 0, 0], "
-            "path: "
+            "curve: "
             "[{time: 0, displacement: [0, 0, 0]}, {time: 20 ms, displacement: [0, 0, 3 mm]}]}]",
             "contact.obstacles.0.sine={amplitude: [0, 0, 1 mm], frequency: 3 Hz, phase: -90 deg}"});
   const auto& given = scene.problem.body.prescribed;
@@ -59,7 +59,7 @@ TEST(Inputs, Motions) {
 
 TEST(Inputs, Turns) {
   const auto turn = [](const std::string& keys) {
-    return with({"contact.obstacles.0.turn={" + keys + "}"}).problem.contact.obstacles[0].turn;
+    return with({"contact.obstacles.0.rotate={" + keys + "}"}).problem.contact.obstacles[0].turn;
   };
   const auto steady = turn(
       "axis: [0, 2, 0], about: [1 cm, 0, 0], rotation: [180 deg, 0, 0], angular_velocity: 90 "
@@ -68,7 +68,7 @@ TEST(Inputs, Turns) {
   EXPECT_EQ(*steady->about, Point(0.01, 0, 0));
   EXPECT_DOUBLE_EQ(steady->rotation[0], pi);
   EXPECT_DOUBLE_EQ(std::get<SteadyTurn>(steady->angle).angular_velocity, pi / 2);
-  const auto path = turn("path: [{time: 0, angle: 0 deg}, {time: 20 ms, angle: -30 deg}]");
+  const auto path = turn("curve: [{time: 0, angle: 0 deg}, {time: 20 ms, angle: -30 deg}]");
   EXPECT_FALSE(path->about);
   EXPECT_DOUBLE_EQ(std::get<PathTurn>(path->angle).knots.at(1).angle, -pi / 6);
   const auto sine = turn("sine: {amplitude: 10 deg, frequency: 2 Hz}");
@@ -76,21 +76,21 @@ TEST(Inputs, Turns) {
   const auto refused = [&](const std::string& keys) {
     return plica::test::refusal([&] { turn(keys); });
   };
-  EXPECT_NE(refused("axs: [0, 0, 1]").find("turn: unknown key 'axs'; did you mean 'axis'?"),
+  EXPECT_NE(refused("axs: [0, 0, 1]").find("rotate: unknown key 'axs'; did you mean 'axis'?"),
             std::string::npos);
-  EXPECT_NE(refused("axis: [0, 0, 0]").find("turn.axis"), std::string::npos);
-  EXPECT_NE(refused("angular_velocity: 3 Hz").find("turn.angular_velocity"), std::string::npos);
-  EXPECT_NE(refused("angular_velocity: 3 rad/s, path: [{time: 0, angle: 0}]").find("path"),
+  EXPECT_NE(refused("axis: [0, 0, 0]").find("rotate.axis"), std::string::npos);
+  EXPECT_NE(refused("angular_velocity: 3 Hz").find("rotate.angular_velocity"), std::string::npos);
+  EXPECT_NE(refused("angular_velocity: 3 rad/s, curve: [{time: 0, angle: 0}]").find("curve"),
             std::string::npos);
 }
 
 TEST(Inputs, Loads) {
-  const Scene scene =
-      with({"body.loads=[{plane: {}, traction: [0, 0, -2 kPa]}, {nearest: [0, 0, 0], force: [1 mN, "
-            "0, 0],"
-            " ramp: 50 ms}, {group: side, force: [0, 0, 0], course: [{time: 1, factor: 2}]},"
-            " {region: side, force: [0, 0, 0], sine: {frequency: 4}}]",
-            "body.regions.side={where: {sphere: {radius: 5 cm}}}"});
+  const Scene scene = with(
+      {"body.loads=[{half_space: {}, traction: [0, 0, -2 kPa]}, {nearest: [0, 0, 0], force: [1 mN, "
+       "0, 0],"
+       " ramp: 50 ms}, {group: side, force: [0, 0, 0], curve: [{time: 1, factor: 2}]},"
+       " {region: side, force: [0, 0, 0], sine: {frequency: 4}}]",
+       "body.regions.side={where: {sphere: {radius: 5 cm}}}"});
   const auto& loads = scene.problem.body.loads;
   ASSERT_EQ(loads.size(), 4u);
   EXPECT_EQ(std::get<Traction>(loads[0].load).value, Point(0, 0, -2000));
@@ -178,8 +178,8 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
        "force, ramp, sine)"},
       {"  material:", "  loads: [{region: tip, force: [0, 0, 3]}]\n  material:",
        "a.yaml:7: body.loads.0.region: there is no region 'tip': the meshes name none"},
-      {"friction: 0.2", "path: [{time: 1, displacement: [0, 0, 0, 0]}]",
-       "a.yaml:14: contact.obstacles.0.path.0.displacement: expected a list of 3 lengths (m), got "
+      {"friction: 0.2", "curve: [{time: 1, displacement: [0, 0, 0, 0]}]",
+       "a.yaml:14: contact.obstacles.0.curve.0.displacement: expected a list of 3 lengths (m), got "
        "a list of 4"},
       {"friction: 0.2", "grasp: {form: 0.1 s}",
        "a.yaml:14: contact.obstacles.0.grasp: unknown key 'form'; did you mean 'from'?"},
@@ -208,9 +208,9 @@ TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
     return std::string("accepted");
   };
   EXPECT_EQ(refusal(damaged("friction: 0.2",
-                            "path: [{time: 1, displacement: [0, 0, 0]},\n"
+                            "curve: [{time: 1, displacement: [0, 0, 0]},\n"
                             "        {time: 1, displacement: [0, 0, 0]}]")),
-            "a.yaml:15: contact.obstacles.0.path.1.time is 1 s; expected a time after that of the "
+            "a.yaml:15: contact.obstacles.0.curve.1.time is 1 s; expected a time after that of the "
             "entry before, 1 s");
   EXPECT_EQ(refusal(damaged("friction: 0.2", "grasp: {from: 0.3 s,\n        until: 0.2 s}")),
             "a.yaml:15: contact.obstacles.0.grasp.until is 0.2 s; expected a time after 0.3 s: it "

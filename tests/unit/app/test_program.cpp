@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/backend.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 
 #include "unit/app/child.hpp"
@@ -48,12 +49,21 @@ TEST_F(Program, WritesTheVolumesOfAllLevelsThatHaveAState) {
   }
 }
 
+/// The narrowest precision of this build.
+const std::string narrow = is_built<float> ? "float" : "double";
+
+TEST_F(Program, RunsInThePrecisionsOfItsBuild) {
+  const Child run = plica({"run", scene, "-o", out, "--duration", "2ms", "--precision", "float"});
+  EXPECT_EQ(run.status, is_built<float> ? 0 : 2) << run.errors;
+  EXPECT_EQ(run.errors.find("PLICA_BACKENDS=all") == std::string::npos, is_built<float>);
+}
+
 TEST_F(Program, QuietSaysNothing) {
   const Child run =
-      plica({"run", scene, "-o", out, "--quiet", "--duration", "2ms", "--precision", "float"});
+      plica({"run", scene, "-o", out, "--quiet", "--duration", "2ms", "--precision", narrow});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.output + run.errors, "");
-  EXPECT_EQ(summary()["precision"], "float");
+  EXPECT_EQ(summary()["precision"], narrow);
 }
 
 TEST_F(Program, DurationIsCoveredByWholeSteps) {

@@ -89,7 +89,7 @@ TEST_F(ReportCommand, DrawsObstaclesAsTheyTurn) {
   ASSERT_EQ(
       run({"body.surface.boundary=true",
            "contact.obstacles=[{name: quarter, box: {centre: [0.3, 0, 0], size: [0.2, "
-           "0.02, 0.05]}, turn: {path: [{time: 0, angle: 0}, {time: 20 ms, angle: 90 deg}]}}]"})
+           "0.02, 0.05]}, rotate: {curve: [{time: 0, angle: 0}, {time: 20 ms, angle: 90 deg}]}}]"})
           .status,
       0);
   ASSERT_EQ(plica({"report", out, "--quiet"}).status, 0);

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include <plica/core/backend.hpp>
+
 #include "unit/app/child.hpp"
 
 // Runs that stop, in whatever way, and go on.
@@ -93,12 +95,13 @@ TEST_F(Resume, SurvivesFiftyKills) {
 }
 
 TEST_F(Resume, InterruptedRunGoesOn) {
-  ASSERT_EQ(begin("whole", {"--precision", "float"}).status, 0);
+  const std::string precision = is_built<float> ? "float" : "double";
+  ASSERT_EQ(begin("whole", {"--precision", precision}).status, 0);
   const auto has_frames = [&] {
     return std::filesystem::exists(folder / "stopped/frames/surface_0003.vtu");
   };
   const Child stopped = begin(
-      "stopped", {"--precision", "float", "--checkpoint", "every=100 s", "--duration", "40 s"},
+      "stopped", {"--precision", precision, "--checkpoint", "every=100 s", "--duration", "40 s"},
       [&](pid_t id) { return has_frames() && kill(id, SIGINT) == 0; });
   ASSERT_EQ(stopped.status, 130);
   const long done = Json::parse(content_of(folder / "stopped/summary.json"))["macro_steps"];

@@ -221,9 +221,9 @@ TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
 }
 
 TEST(Scene, FibresRunFromOneSetToAnother) {
-  const Scene scene = scene_of(
-      damaged("{model: neo_hookean, young_modulus: 50 kPa}",
-              "{tissue: heart_muscle}\n  fibres: {from: {plane: {}}, to: {nearest: [0, 0, 1]}}"));
+  const Scene scene = scene_of(damaged(
+      "{model: neo_hookean, young_modulus: 50 kPa}",
+      "{tissue: heart_muscle}\n  fibres: {from: {half_space: {}}, to: {nearest: [0, 0, 1]}}"));
   const FibreOptions& fibres = *scene.problem.body.material.fibres;
   ASSERT_TRUE(fibres.from && fibres.to);
   EXPECT_EQ(std::get<HalfSpaceSelection>(*fibres.from).normal, Point(0, 0, 1));

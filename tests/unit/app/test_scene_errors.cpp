@@ -84,14 +84,15 @@ const Damage damages[] = {
     {"PronyOfALawWithoutShape", "neo_hookean", "corotational, prony: [{alpha: 0.6, tau: 1 s}]",
      "a.yaml:7: body.material.prony: corotational does not split shape from volume"},
     {"PronyOfARegion", "  material:",
-     "  regions: {half: {where: {plane: {}}, prony: [{alpha: 0.6, tau: 1 s}, {alpha: 0.5, tau: 2 "
+     "  regions: {half: {where: {half_space: {}}, prony: [{alpha: 0.6, tau: 1 s}, {alpha: 0.5, "
+     "tau: 2 "
      "s}]}}\n  material:",
      "a.yaml:7: body.regions.half.prony: the sum of alpha is 1.1; expected one below 1"},
     {"FibresFromNowhere", "{model: neo_hookean, young_modulus: 50 kPa}",
      "{tissue: heart_muscle}\n  fibres: {from: {group: base}, to: {group: apex}}",
      "a.yaml:8: body.fibres.from.group: there is no group 'base': the meshes name none"},
     {"FibresWithoutEnd", "{model: neo_hookean, young_modulus: 50 kPa}",
-     "{tissue: heart_muscle}\n  fibres: {from: {plane: {}}}",
+     "{tissue: heart_muscle}\n  fibres: {from: {half_space: {}}}",
      "a.yaml:8: body.fibres.to is missing; fibres run from one set of vertices to another, "
      "expected both"},
     {"UnknownPreset", "gravity: [0, 0, -9.81]", "preset: led",

@@ -20,7 +20,7 @@ body:
     - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
     - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
   material: {model: neo_hookean, young_modulus: 1 MPa, poisson_ratio: 0.3}
-  fixed: [{plane: {normal: [1, 0, 0]}}]
+  fixed: [{half_space: {normal: [1, 0, 0]}}]
 output: {probes: {tip: [0.4, 0.05, 0.05]}}
 study:
   methods: [single/symplectic_euler, coarse, coarse/1/rk4]

@@ -13,7 +13,7 @@ gravity: [0, 0, -9.81]
 body:
   levels: [{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}]
   material: {young_modulus: 20 kPa, poisson_ratio: 0.3, density: 1000}
-  fixed: [{plane: {normal: [0, 0, 1]}}]
+  fixed: [{half_space: {normal: [0, 0, 1]}}]
   damping: {mass: 8}
   surface: {boundary: true}
 contact: {obstacles: [{name: probe, sphere: {centre: [0.13, 0.05, 0.08], radius: 0.02}}]}

@@ -92,8 +92,7 @@ double deepest(const Problem& p, const Simulation<Host>& s) {
   return depth;
 }
 
-// --- Joined
-// -----------------------------------------------------------------------------------------------------------------
+// --- Joined ---
 
 TEST(Bodies, SelectInThemselvesAndKeepTheirMaterials) {
   Body soft = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2}),
@@ -200,8 +199,7 @@ TEST(Bodies, RefuseWhatCannotTouch) {
   EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("that of a body"), std::string::npos);
 }
 
-// --- Known answers
-// ----------------------------------------------------------------------------------------------------------
+// --- Known answers ---
 
 // Momenta to rounding whatever the integrator; no energy is gained; what flew at each other flies
 // apart.
@@ -268,8 +266,7 @@ TEST(Bodies, TouchInEveryCycle) {
   }
 }
 
-// --- Folds
-// ------------------------------------------------------------------------------------------------------------------
+// --- Folds ---
 
 /// A strip bent to a U whose legs, 1 mm apart, stand along z.
 Problem fold() {
@@ -332,8 +329,7 @@ TEST(SelfContact, KeepsAFoldApart) {
   }
 }
 
-// --- How it is computed
-// ---------------------------------------------------------------------------------------------------------
+// --- How it is computed ---
 
 #if defined(KOKKOS_ENABLE_OPENMP)
 TEST(Bodies, GiveTheSameBitsForOneThreadAndTwo) {

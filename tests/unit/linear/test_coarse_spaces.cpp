@@ -6,8 +6,8 @@
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/linear/stage_system.hpp>
 #include <plica/drivers/spaces/coarse_spaces.hpp>
+#include <plica/drivers/spaces/edge_graph.hpp>
 #include <plica/drivers/spaces/moving_least_squares.hpp>
-#include <plica/meshes/edge_graph.hpp>
 #include <plica/meshes/organs.hpp>
 #include <set>
 

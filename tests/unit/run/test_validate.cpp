@@ -154,7 +154,7 @@ TEST(Validate, DoubtsPathsThatStartElsewhere) {
   ASSERT_EQ(other_doubts(p).size(), 1);
   EXPECT_EQ(
       other_doubts(p)[0],
-      "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
+      "body.prescribed.0.curve does not start at [0, 0, 0]: the vertices jump there at the start");
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
@@ -189,12 +189,12 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   backwards.knots[0].time = 1;
   EXPECT_EQ(
       load({all, TotalForce{}, backwards}),
-      "body.loads.0.course.1.time is 0 s; expected a time after that of the entry before, 1 s");
+      "body.loads.0.curve.1.time is 0 s; expected a time after that of the entry before, 1 s");
   EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}})
                 .find("body.loads.0.sphere.radius is -1"),
             std::string::npos);
   EXPECT_NE(load({HalfSpaceSelection{{0, 0, 0}, {0, 0, 0}}, TotalForce{}, {}})
-                .find("body.loads.0.plane.normal is [0, 0, 0]; expected a direction"),
+                .find("body.loads.0.half_space.normal is [0, 0, 0]; expected a direction"),
             std::string::npos);
   EXPECT_NE(load({Box{{0, 1, 0}, {1, 0, 1}}, TotalForce{}, {}})
                 .find("body.loads.0.box.min is [0, 1, 0] m; expected at most max, [1, 0, 1] m"),

@@ -24,8 +24,7 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-// --- Geometry of two edges
-// --------------------------------------------------------------------------------------------------
+// --- Geometry of two edges ---
 
 using Tet = std::array<Point, 4>;
 constexpr std::array<std::array<int, 4>, 6> edges_of_tet{
@@ -144,8 +143,7 @@ TEST(EdgeContact, DistanceOfSegmentsIsTheLeastOfManyPlaces) {
   }
 }
 
-// --- Bodies
-// -----------------------------------------------------------------------------------------------------------------
+// --- Bodies ---
 
 constexpr double ridge = 0.02 / std::numbers::sqrt2;  // of a bar: half its diagonal
 

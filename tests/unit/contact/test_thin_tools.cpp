@@ -28,8 +28,7 @@ using namespace plica::test;
 
 Vec3<double> vec(const Point& p) { return {p[0], p[1], p[2]}; }
 
-// --- Where a triangle is deepest
-// --------------------------------------------------------------------------------------------
+// --- Where a triangle is deepest ---
 
 // Nowhere else on a triangle is it deeper, for solids of any place and direction: against a fine
 // grid.
@@ -57,8 +56,7 @@ TEST(DeepestOnTriangle, IsNowhereElse) {
   }
 }
 
-// --- Tools
-// ------------------------------------------------------------------------------------------------------------------
+// --- Tools ---
 
 constexpr double edge = 0.01, top = 0.04;
 

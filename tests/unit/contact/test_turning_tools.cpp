@@ -58,8 +58,7 @@ double largest_difference(const std::vector<Point>& a, const std::vector<Point>&
   return most;
 }
 
-// --- Where they are, and how fast
-// -------------------------------------------------------------------------------------------
+// --- Where they are, and how fast ---
 
 const Point about(0.02, -0.01, 0.03), axis(1, -2, 2);
 const double angle = 0.7;
@@ -176,8 +175,7 @@ TEST(TurningTools, StartTurned) {
   EXPECT_LE((rotation(r) * Point(0.1, 0, -1) - want).norm(), 1e-14);
 }
 
-// --- What they do to bodies
-// -------------------------------------------------------------------------------------------------
+// --- What they do to bodies ---
 
 Point momentum_about_z(const Problem& p,
                        // of the mass: centre's velocity x, y; angular velocity
@@ -314,32 +312,32 @@ TEST(TurningTools, FastOnesDoNotPassPoints) {
   }
 }
 
-// --- What is said of them
-// ---------------------------------------------------------------------------------------------------
+// --- What is said of them ---
 
 TEST(TurningTools, AreRefusedWhereTheyCannotBe) {
   const auto why = [](const Turn& turn) {
     const Problem p = below(turn);
     return refusal([&] { Simulation<Host>{p}; });
   };
-  EXPECT_NE(why({.axis = {0, 0, 0}}).find("contact.obstacles.0.turn.axis"), std::string::npos);
-  EXPECT_NE(why({.about = Point(0, NAN, 0)}).find("contact.obstacles.0.turn.about"),
+  EXPECT_NE(why({.axis = {0, 0, 0}}).find("contact.obstacles.0.rotate.axis"), std::string::npos);
+  EXPECT_NE(why({.about = Point(0, NAN, 0)}).find("contact.obstacles.0.rotate.about"),
             std::string::npos);
   EXPECT_NE(why({.angle = SineTurn{1, 0, 0}})
-                .find("contact.obstacles.0.turn.sine.frequency is 0 1/s; expected"),
+                .find("contact.obstacles.0.rotate.sine.frequency is 0 1/s; expected"),
             std::string::npos);
   EXPECT_EQ(why({.angle = PathTurn{}}),
-            "contact.obstacles.0.turn.path is empty; expected at least one time");
+            "contact.obstacles.0.rotate.curve is empty; expected at least one time");
   EXPECT_EQ(why({.angle = PathTurn{{{0.1, 0}, {0.1, 1}}}}),
-            "contact.obstacles.0.turn.path.1.time is 0.1 s; expected a time after that of the "
+            "contact.obstacles.0.rotate.curve.1.time is 0.1 s; expected a time after that of the "
             "entry before, 0.1 s");
   const Turn steady{.angle = SteadyTurn{1}};
   Problem p = below(steady);
   p.contact.obstacles[0].mass = 1;
-  EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
-            "contact.obstacles.0.turn, beside mass, is of an obstacle that turns by the torque on "
-            "it; expected "
-            "contact.obstacles.0.inertia, too, or neither");
+  EXPECT_EQ(
+      refusal([&] { Simulation<Host>{p}; }),
+      "contact.obstacles.0.rotate, beside mass, is of an obstacle that turns by the torque on "
+      "it; expected "
+      "contact.obstacles.0.inertia, too, or neither");
   p.contact.obstacles[0].turn.reset();
   Simulation<Host> heavy(p);
   EXPECT_NE(refusal([&] { heavy.set_obstacle_turn(0, steady); }).find("plate has mass"),

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <plica/meshes/edge_graph.hpp>
-#include <plica/meshes/grouping.hpp>
+#include <plica/core/grouping.hpp>
+#include <plica/drivers/spaces/edge_graph.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <queue>
 

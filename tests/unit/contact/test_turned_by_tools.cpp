@@ -142,8 +142,7 @@ TEST(TurnedByTools, GoOnFromASavedState) {
   }
 }
 
-// --- By a program
-// -----------------------------------------------------------------------------------------------------------
+// --- By a program ---
 
 // Turned step by step to the angles of a path, with a displacement beside it, it goes as by the
 // path.

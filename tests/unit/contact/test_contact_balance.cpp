@@ -53,8 +53,7 @@ Problem block(double angle = 0) {
   return p;
 }
 
-// --- Momentum
-// ---------------------------------------------------------------------------------------------------------------
+// --- Momentum ---
 
 constexpr double stiffness = 300, damping = 8, mass_of_tool = 0.2;
 // knots between steps
@@ -177,8 +176,7 @@ TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
   }
 }
 
-// --- Work of friction
-// -------------------------------------------------------------------------------------------------------
+// --- Work of friction ---
 
 // On a slope of 30 degrees it is the force along it times the way; on a gentle one the block
 // sticks, and it is next to nothing.

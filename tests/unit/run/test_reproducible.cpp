@@ -290,8 +290,10 @@ TEST(SavedState, OfAnotherSimulationIsRefused) {
   EXPECT_EQ(refusal_of(simulation, from(other)), start + "the size of level 1's state.u differs");
   EXPECT_EQ(refusal_of(simulation, from(thrown("rs", "symplectic_euler"))),
             start + "the size of level 0's start.u differs");
+#ifndef PLICA_WITHOUT_FLOAT
   EXPECT_EQ(refusal_of(simulation, Simulation<HostFloat>(problem).save()),
             start + "the precision differs");
+#endif
 }
 
 TEST(SavedState, CutShortOrTooLongIsRefused) {

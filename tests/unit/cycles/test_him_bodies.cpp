@@ -112,8 +112,7 @@ TEST(HimOfBodies, GivesEachItsOwnSpaces) {
   EXPECT_EQ(simulation.him()->coarsest, 40);
 }
 
-// --- Below given meshes
-// -----------------------------------------------------------------------------------------------------
+// --- Below given meshes ---
 
 Problem sagging_beam(std::vector<TetMesh> meshes) {
   Problem p = body_of(std::move(meshes), "neo_hookean");
@@ -151,8 +150,7 @@ TEST(HimBelowMeshes, MakesTheSpacesThatAreAskedFor) {
   EXPECT_EQ(simulation.levels()[3].vertices, 30);
 }
 
-// --- The automatic step
-// -----------------------------------------------------------------------------------------------------
+// --- The automatic step ---
 
 TEST(HimStep, SaysWhereTheAutomaticOneWasHalved) {
   Problem p = him_beam(false, "neo_hookean");

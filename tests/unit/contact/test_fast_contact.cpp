@@ -146,8 +146,7 @@ TEST(FastContact, HoldsFastPointsAtANeedle) {
   }
 }
 
-// --- Against independent evaluations of random configurations
-// -----------------------------------------------------------------
+// --- Against independent evaluations of random configurations ---
 
 using Random = std::mt19937_64;
 

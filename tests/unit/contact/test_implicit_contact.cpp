@@ -232,8 +232,7 @@ TEST(ImplicitContact, HasOneSystem) {
   }
 }
 
-// --- Steps
-// ------------------------------------------------------------------------------------------------------------------
+// --- Steps ---
 
 struct Method {
   const char* integrator;

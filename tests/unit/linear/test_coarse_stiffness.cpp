@@ -5,9 +5,9 @@
 #include <numeric>
 #include <plica/drivers/spaces/block_rows.hpp>
 #include <plica/drivers/spaces/coarse_stiffness.hpp>
+#include <plica/drivers/spaces/edge_graph.hpp>
 #include <plica/drivers/spaces/moving_least_squares.hpp>
 #include <plica/drivers/study/level_probe.hpp>
-#include <plica/meshes/edge_graph.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
