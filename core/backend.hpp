@@ -9,20 +9,19 @@
 
 namespace plica {
 
-/// Where and in which precision the device side runs: the one template parameter of everything that
-/// touches it.
+/// Precision and execution space of the device side. All code that touches the device has this one
+/// template parameter.
 template <class RealType, class ExecType>
 struct Backend {
   using Real = RealType;                       ///< float or double
   using Exec = ExecType;                       ///< a Kokkos execution space
-  using Memory = typename Exec::memory_space;  ///< where its fields live
-  /// Whether the host can read that memory.
+  using Memory = typename Exec::memory_space;  ///< memory space of its fields
+  /// True where the host can read `Memory`.
   static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
-  /// Whether its kernels are shaped for a CPU, where one thread fills vector registers, or for a
-  /// GPU, where many work as a team.
+  /// True where kernels are shaped for a CPU, on which one thread fills vector registers. On a GPU,
+  /// many threads work as a team.
   static constexpr bool for_cpu = on_host && !like_device::on;
-  /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on
-  /// a GPU.
+  /// Elements per pass of a kernel: a vector register's worth on a CPU, one on a GPU.
   static constexpr int lanes = for_cpu && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
                                    ? PLICA_VECTOR_BYTES / static_cast<int>(sizeof(Real))
                                    : 1;
@@ -61,7 +60,7 @@ struct Backend {
 #define PLICA_FOR_ALL_SPACES(IN, DO) \
   PLICA_FOR_SERIAL(IN, DO) PLICA_FOR_OPENMP(IN, DO) PLICA_FOR_CUDA(IN, DO)
 #define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_PRECISIONS, DO)
-/// These, and float beside each in double: preconditioners of runs in double work in float.
+/// List of these, and of float beside each in double: preconditioners of runs in double use float.
 #define PLICA_FOR_EACH_PRECISION(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_BOTH, DO)
 
 /// Whether simulations run in that precision.
@@ -72,33 +71,34 @@ template <>
 inline constexpr bool is_built<float> = false;
 #endif
 
-/// The execution spaces alone.
+/// List of the execution spaces that are built.
 #define PLICA_FOR_EACH_SPACE(DO) PLICA_ON_SERIAL(DO) PLICA_ON_OPENMP(DO) PLICA_ON_CUDA(DO)
-/// The memory spaces that their fields live in, each once.
+/// List of the memory spaces in which fields of these execution spaces live, each once.
 #if defined(KOKKOS_ENABLE_CUDA)
 #define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace) DO(Kokkos::CudaSpace)
 #else
 #define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace)
 #endif
 
-/// Rows of a slice of a matrix that is stored slice by slice: a register's worth on a CPU; on a GPU
-/// a warp reads whole lines.
+/// Rows per slice of a matrix that is stored slice by slice. On a CPU they fill a vector register;
+/// on a GPU 32 rows let a warp read whole lines.
 template <class B>
 inline constexpr int slice_height = B::for_cpu ? B::lanes : 32;
 
-/// Threads of a team: one on a CPU, where teams run side by side, `on_device` on a GPU.
+/// Returns the number of threads of a team. It is one on a CPU, where teams run side by side, and
+/// `on_device` on a GPU.
 template <class B>
 constexpr int team_size(int on_device) {
   return B::for_cpu ? 1 : like_device::team_size<typename B::Exec>(on_device);
 }
 
-/// Which of its league this team is.
+/// Returns the number of a team in its league.
 template <class Member>
 KOKKOS_INLINE_FUNCTION int league_rank(const Member& team) {
   return like_device::place(team.league_rank(), team.league_size());
 }
 
-/// So many numbers of a team's scratch memory, at a level of it.
+/// Returns team scratch memory for `count` numbers, at a level of Kokkos's scratch memory.
 template <class Real, class Member>
 KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::size_t count) {
   Real* const memory =
@@ -110,13 +110,13 @@ KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::si
 /// One value per vertex or point.
 template <class B>
 using Scalars = Kokkos::View<typename B::Real*, Kokkos::LayoutRight, typename B::Memory>;
-/// One vector each; vectors lie interleaved (x y z) on every backend.
+/// One vector per vertex or point. Vectors lie interleaved (x y z) on every backend.
 template <class B>
 using Vectors = Kokkos::View<typename B::Real* [3], Kokkos::LayoutRight, typename B::Memory>;
-/// Numbers of vertices, elements ...
+/// Indices of vertices, elements or other items.
 template <class B>
 using Indices = Kokkos::View<int*, Kokkos::LayoutRight, typename B::Memory>;
-/// Sums and other numbers that are double in either precision.
+/// Numbers that are double in either precision, such as sums.
 template <class B>
 using Doubles = Kokkos::View<double*, Kokkos::LayoutRight, typename B::Memory>;
 

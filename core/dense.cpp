@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigen by another name. Everywhere else Eigen is as in a program that is built without -march: its
-// objects may pass between this library and its callers, so memory has the alignment, and functions
-// the code, of such a program. Here it uses vector instructions and aligns memory for them. Under
-// one name the linker would take either for both.
+// Compiles Eigen under another namespace name. Everywhere else Eigen is as in a program that is
+// built without -march: its objects may pass between this library and its callers. There memory has
+// the alignment, and functions the code, of such a program. Here Eigen uses vector instructions and
+// aligns memory for them. Under one name the linker would use one version of a function for both.
 #undef EIGEN_DONT_VECTORIZE
 #undef EIGEN_MAX_ALIGN_BYTES
 #undef EIGEN_MAX_STATIC_ALIGN_BYTES
-#define EIGEN_DONT_PARALLELIZE  // the same bits for any number of threads
+#define EIGEN_DONT_PARALLELIZE  // gives the same bits for any number of threads
 #define Eigen plica_dense_eigen
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored \

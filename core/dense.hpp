@@ -3,59 +3,62 @@
 #include <cstddef>
 #include <vector>
 
-// Dense algebra on the host with the processor's vector instructions, for what is factorised while
-// a simulation runs. Matrices are symmetric, n numbers by n.
+// Dense algebra on the host, with the processor's vector instructions. It is for matrices that are
+// factorised while a simulation runs. Matrices are symmetric, [n][n].
 namespace plica::dense {
 
-/// The inverse of a positive definite matrix, in place. False where it is not positive definite:
+/// Inverts a positive definite matrix in place. Returns false where A is not positive definite:
 /// then A is of no use.
 bool invert(int n, double* A);
 
-/// K phi = s M phi for K of 3n x 3n numbers and a positive semi-definite M of n x n, which stands
-/// for M times the 3x3 unit matrix. Left out are combinations whose M is below 1e-8 of what it is
-/// for their parts. The eigenvalues s, ascending, and the vectors phi [3n], one after the other,
-/// with phi . M phi = 1; how many there are is returned.
+/// Solves K phi = s M phi for K, 3n x 3n, and a positive semi-definite M, n x n. M stands for M
+/// times the 3x3 unit matrix. Combinations whose M is below 1e-8 of what it is for their parts are
+/// left out. The eigenvalues s ascend. The vectors phi [3n] stand one after the other, with phi . M
+/// phi = 1. Returns the number of modes.
 /// @param s    [3n]
 /// @param phi  [3n x 3n]
 int modes(int n, const double* K, const double* M, double* s, double* phi);
 
-/// sum over k < count of s_k phi_k phi_k^T, for vectors of n numbers that stand one after the
-/// other.
+/// Computes A = sum over k < count of s_k phi_k phi_k^T. The vectors phi_k have n numbers and stand
+/// one after the other.
 void recompose(int n, int count, const double* s, const double* phi, double* A);
 
-/// The lower half of A += B^T B, for B of `rows` by n numbers, column by column.
+/// Adds B^T B to the lower half of A. B is `rows` by n numbers, column by column.
 void add_gram(int rows, int n, const double* B, double* A);
 
-/// The largest eigenvalue of a Lanczos iteration's tridiagonal matrix, and how far it can be from
-/// one of the operator's.
+/// Largest eigenvalue of a Lanczos iteration's tridiagonal matrix, and its error. An eigenvalue of
+/// the operator is at most `residual` away.
 struct RitzBound {
   double value = 0;
   double residual = 0;
 };
 
-/// @param diagonal  at least one
-/// @param beside    one less
-/// @param next      what would stand beside the next one
+/// Computes the bound from the entries of the tridiagonal matrix.
+/// @param diagonal  at least one entry
+/// @param beside    entries beside the diagonal, one fewer
+/// @param next      entry beside the diagonal that would follow
 RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside,
                              double next);
 
-/// The same for an iteration that goes on until it knows enough.
+/// Computes a RitzBound along a Lanczos iteration, which goes on until the residual is small
+/// enough.
 class LargestRitz {
  public:
-  /// @param tolerance  of the residual, as a part of the value
+  /// @param tolerance  maximum residual, as a part of the value
   explicit LargestRitz(double tolerance) : tolerance_(tolerance) {}
 
-  /// The next step's entry on the diagonal and the one beside it. True where that is enough, or
-  /// nothing can follow.
+  /// Adds the next step's entry on the diagonal and the one beside it. Returns true where the
+  /// residual is small enough, or nothing can follow.
   bool add(double diagonal, double next);
 
-  /// The eigenvalue with its residual: on the sure side.
+  /// Returns the eigenvalue plus its residual, which is on the safe side.
   double bound() const { return bound_; }
 
  private:
   double tolerance_, bound_ = 0, next_ = 0;
   std::vector<double> diagonal_, beside_;
-  std::size_t look_at_ = 5;  // entries, then at each; less often the more there are
+  // number of entries at which the bound is computed next; less often the more there are
+  std::size_t look_at_ = 5;
 };
 
 }  // namespace plica::dense

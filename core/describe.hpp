@@ -4,16 +4,16 @@
 #include <plica/core/keys.hpp>
 #include <plica/core/problem.hpp>
 
-/// Every option of problem.hpp, once: its name, where it is kept, its kind with unit and range, and
-/// what it means. describe(visitor, options) is the table of a struct. Whoever needs one writes a
-/// visitor: the reader of scenes, the list of keys, the JSON Schema, the checks of set-up. For each
-/// line of a table the visitor is called by
-///   v(name, member, kind, help)             a key that may be left out: it has the member's default
-///   v.required(name, member, kind, help)    a key that may not
-///   v.one_of(), v.at_most_one()             of the alternatives that follow exactly one is given, or at most one
+/// Tables of the options of problem.hpp: name, place, kind with unit and range, and meaning of
+/// each. The table of a struct is describe(visitor, options). A visitor uses it: the reader of
+/// scenes, the list of keys, the JSON Schema, the checks of set-up. For each line of a table the
+/// visitor is called by
+///   v(name, member, kind, help)              optional key; left out: the member's default
+///   v.required(name, member, kind, help)     required key
+///   v.one_of(), v.at_most_one()              exactly one, or at most one, of the next alternatives
 ///   v.alternative(name, target, kind, help)
-/// Another option is a member of its struct and a line here. The tables of the obstacles' shapes
-/// are in kernels/contact/shapes/.
+/// A new option is a member of its struct and a line here. The tables of the obstacles' shapes are
+/// in kernels/contact/shapes/.
 namespace plica {
 
 using namespace keys;
@@ -51,7 +51,8 @@ void describe(V& v, Selection& o) {
                 "the one nearest to this point, on every level");
 }
 
-/// What the body and its regions have in common; a region's are optional.
+/// Describes the constants that the body and its regions have in common. Those of a region are
+/// optional.
 template <class V, class Options>
 void describe_constants(V& v, Options& o) {
   v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "stiffness E");
@@ -116,7 +117,7 @@ void describe(V& v, MaterialOptions& o) {
     "false: inverted elements end the run; left out: by the material");
 }
 
-/// The body's damping, and what regions have of it.
+/// Describes the damping of the body, or of a region.
 template <class V, class Options>
 void describe_damping(V& v, Options& o) {
   v("mass", o.mass, Quantity{rate, not_negative},
@@ -285,7 +286,7 @@ void describe(V& v, InitialOptions& o) {
     "seed: every free vertex starts anywhere in level 0's bounding box at rest");
 }
 
-/// But for its meshes and its surface.
+/// Describes a body without its meshes and its surface.
 template <class V>
 void describe(V& v, Body& o) {
   v("element", o.element, NamePerLevel{{"element", elements}},
@@ -356,7 +357,8 @@ void describe(V& v, FailureOptions& o) {
     "of the shortest part that Newton's method does not solve");
 }
 
-/// What variants of a study may change too; theirs are optional.
+/// Describes the options of stepping that variants of a study may change, too. Those of a variant
+/// are optional.
 template <class V, class Options>
 void describe_stepping(V& v, Options& o) {
   v("shift_to_coarsest", o.shift_to_coarsest, Quantity{plain, below_one},
@@ -391,7 +393,7 @@ void describe(V& v, IntegrationOptions& o) {
     "of a macro step: halved, and longer again once it is calm");
 }
 
-/// But for the body, its integration and contact.
+/// Describes a problem without the body, its integration and contact.
 template <class V>
 void describe(V& v, Problem& o) {
   v("preset", o, PresetName{},

@@ -3,7 +3,7 @@
 #include <plica/core/keys.hpp>
 #include <plica/core/problem.hpp>
 
-// The keys of contact: see describe.hpp.
+// Tables of the options of contact, in the form that describe.hpp explains.
 namespace plica {
 
 using namespace keys;
@@ -50,7 +50,7 @@ void describe(V& v, AttachmentOptions& o) {
     "force at which a point's spring tears; left out: it never does");
 }
 
-/// But for its shape.
+/// Describes an obstacle without its shape.
 template <class V>
 void describe(V& v, ObstacleOptions& o) {
   v("name", o.name, Text{}, "what results call it; left out: obstacle_0, obstacle_1, ... in order");
@@ -74,7 +74,7 @@ void describe(V& v, ObstacleOptions& o) {
   describe(v, o.motion);
 }
 
-/// But for the obstacles.
+/// Describes contact without the obstacles.
 template <class V>
 void describe(V& v, ContactOptions& o) {
   v("bodies", o.bodies, Flag{}, "false: several bodies pass through each other");

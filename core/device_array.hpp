@@ -8,9 +8,9 @@
 
 namespace plica {
 
-/// A caller's vectors [n][3] in this backend's memory, float or double, in any layout: made from
-/// any such Kokkos view, without a copy. It does not own them: they must live until the work that
-/// was given them is done.
+/// A caller's vectors [n][3] in this backend's memory, float or double, in any layout. They come
+/// from a Kokkos view, without a copy. The array does not own them: they must live until the work
+/// that uses them is done.
 template <class B, bool writable>
 class DeviceArray {
   template <class T>
@@ -40,21 +40,21 @@ class DeviceArray {
         Of<T>(view.data(), Kokkos::LayoutStride(view.extent(0), view.stride(0), 3, view.stride(1)));
   }
 
-  /// Its number of vectors.
+  /// Returns the number of vectors.
   std::size_t size() const {
     return std::visit([](const auto& view) { return view.extent(0); }, view_);
   }
-  /// action(view) with the view as it is
+  /// Calls action(view) with the view in its own number type.
   template <class Action>
   void visit(const Action& action) const {
     std::visit(action, view_);
   }
 };
 
-/// Where a simulation writes to.
+/// Vectors that a simulation writes.
 template <class B>
 using DeviceOutput = DeviceArray<B, true>;
-/// What a simulation reads from.
+/// Vectors that a simulation reads.
 template <class B>
 using DeviceInput = DeviceArray<B, false>;
 

@@ -13,7 +13,8 @@ std::string placed(const std::string& message, const Where& where) {
   return where.file + (where.line > 0 ? ":" + std::to_string(where.line) : "") + ": " + message;
 }
 
-// Damerau's distance (a swap of neighbours is one edit), two rows of the table back
+// Returns Damerau's distance, in which a swap of neighbours is one edit. It needs two earlier rows
+// of the table.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});

@@ -7,26 +7,25 @@
 
 namespace plica {
 
-/// Where in an input file something stands; no file: the input came through the interface. Lines
-/// count from 1, 0: unknown.
+/// Place in an input file. Without a file the input came through the interface.
 struct Where {
-  std::string file;  ///< as the user named it
-  int line = 0;      ///< from 1
+  std::string file;  ///< name as the user gave it
+  int line = 0;      ///< counts from 1; 0: unknown
 };
 
 /// The one exception of set-up: bad or unsupported input. what() is "file:line: message".
 class InputError : public std::runtime_error {
  public:
-  /// `message` with the place before it, where there is one.
+  /// Makes an exception of `message`, with the place before it where there is one.
   explicit InputError(const std::string& message, const Where& where = {});
 };
 
-/// The entry of `choices` with the smallest edit distance to `word`; empty when none is near (more
-/// than a third of the letters differ).
+/// Returns the entry of `choices` with the smallest edit distance to `word`. It is empty when none
+/// is near: when more than a third of the letters differ.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& choices);
 
-/// "unknown KIND 'WORD'; did you mean 'NEAREST'? (choices: A, B, C)", the sentence every unknown
-/// name gets.
+/// Returns the sentence that every unknown name gets: "unknown KIND 'WORD'; did you mean 'NEAREST'?
+/// (choices: A, B, C)".
 std::string unknown_name(std::string_view kind, std::string_view word,
                          const std::vector<std::string>& choices);
 

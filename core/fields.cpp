@@ -32,19 +32,19 @@ ConstBytes<Memory> at(const void* x, std::size_t bytes) {
   return ConstBytes<Memory>(static_cast<const unsigned char*>(x), bytes);
 }
 
-/// Whole pages of these bytes, before they are first written.
+/// Asks for huge pages for the whole pages within these bytes, before they are first written.
 void ask_for_huge_pages([[maybe_unused]] void* x, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   if (bytes < 2 * huge_page) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(x) + huge_page - 1) / huge_page * huge_page;
   const auto end = (reinterpret_cast<std::uintptr_t>(x) + bytes) / huge_page * huge_page;
-  // a hint: a system without them goes on
+  // only a hint: a system without huge pages goes on
   madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }
 
-/// By all threads of the host: pages come where they are used, and a system takes long to hand them
-/// out.
+/// Clears memory by all threads of the host. Pages then come where they are used, and the threads
+/// share the handing out, which takes a system long.
 void clear_on_host(void* x, std::size_t bytes) {
   using Exec = Kokkos::DefaultHostExecutionSpace;
   Kokkos::parallel_for(
@@ -89,7 +89,7 @@ struct Set {
   }
 };
 
-/// One of these among the launches.
+/// A Copy or a Set that waits among the launches.
 template <class Task>
 class GatheredTask final : public Launch {
  public:

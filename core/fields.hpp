@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-// What is done with whole fields: memory, equal values, copies, the way to the host. Kokkos's own
-// functions for this are large templates, which every source would compile again for every kind of
-// field: here they are compiled once, in fields.cpp.
+// Operations on whole fields: allocation, filling, copies, transfer to the host. Kokkos's own
+// functions for these are large templates. Every source would compile them again for every kind of
+// field; here they are compiled once, in fields.cpp.
 namespace plica {
 
 namespace fields {
@@ -17,21 +17,22 @@ namespace fields {
 /// Copies bytes within the memory of an execution space, in the order of `exec`.
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes);
-/// New memory, before it is first written: where it is large and the host's, huge pages are asked
-/// for. Kernels that read it in order then wait less.
+/// Asks for huge pages for new memory, where it is large and the host's. Call it before the first
+/// write. Kernels that read the memory in order then wait less.
 template <class Memory>
 void prepare_new(void* x, std::size_t bytes);
-/// New memory is 0.
+/// Sets new memory to 0.
 template <class Memory>
 void clear_new(void* x, std::size_t bytes);
-/// Bytes from the host to a memory space. Waits for all work.
+/// Copies bytes from the host to a memory space. Waits for all work.
 template <class Memory>
 void upload(void* to, const void* from, std::size_t bytes);
-/// Bytes from an execution space's memory to the host, when `exec` has done all it was given. Waits
-/// for that.
+/// Copies bytes from an execution space's memory to the host, after all work that `exec` was given.
+/// Waits for that work.
 template <class Exec>
 void download(const Exec& exec, void* to, const void* from, std::size_t bytes);
-/// Sets numbers, in the order of `exec`. For float, double, int and unsigned long long.
+/// Sets numbers to a value, in the order of `exec`. A number is float, double, int or unsigned long
+/// long.
 template <class Exec, class Number>
 void set(const Exec& exec, Number* x, std::size_t count, Number value);
 
@@ -44,7 +45,7 @@ std::size_t bytes_of(const View& x) {
 
 }  // namespace fields
 
-/// A field of n rows that are still to be written.
+/// Makes a field of n rows that are still to be written.
 template <class View>
 View unset(const std::string& label, std::size_t n) {
   const View view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), n);
@@ -52,7 +53,7 @@ View unset(const std::string& label, std::size_t n) {
   return view;
 }
 
-/// A field of n rows, all zero.
+/// Makes a field of n rows, all zero.
 template <class View>
 View zeros(const std::string& label, std::size_t n) {
   const View view = unset<View>(label, n);
@@ -60,26 +61,27 @@ View zeros(const std::string& label, std::size_t n) {
   return view;
 }
 
-/// A field whose memory another one owns, which outlives it. Copies of it cost nothing, those of an
-/// owner count how many there are.
+/// Returns a view of a field that another view owns and that outlives it. Copies of it cost
+/// nothing, while copies of an owning view count references.
 template <class View>
 View lent(const View& x) {
   return View(x.data(), x.extent(0));
 }
 
-/// x = value, in the order of `exec`.
+/// Sets x = value, in the order of `exec`.
 template <class Exec, class View>
 void fill(const Exec& exec, const View& x, typename View::non_const_value_type value) {
   fields::set(exec, x.data(), fields::bytes_of(x) / sizeof value, value);
 }
 
-/// to = from, of the same kind and size, in the order of `exec`.
+/// Copies `from` into `to`, of the same kind and size, in the order of `exec`.
 template <class Exec, class View>
 void copy(const Exec& exec, const View& to, const std::type_identity_t<View>& from) {
   fields::copy_bytes(exec, to.data(), from.data(), fields::bytes_of(to));
 }
 
-/// Its numbers, row by row, when `exec` has done all it was given. Waits for that.
+/// Returns the numbers of a field, row by row, after all work that `exec` was given. Waits for that
+/// work.
 template <class Exec, class View>
 std::vector<typename View::non_const_value_type> host_values(const Exec& exec, const View& x) {
   std::vector<typename View::non_const_value_type> values(x.span());
@@ -87,15 +89,15 @@ std::vector<typename View::non_const_value_type> host_values(const Exec& exec, c
   return values;
 }
 
-/// The field where the host reads it: itself, or a copy. Waits for all work.
+/// Returns the field where the host can read it: itself, or a copy. Waits for all work.
 template <class View>
 auto on_host(const View& x) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), x);
 }
 
-/// A field named "plica::NAME" with the values of a host vector, whose elements are rows of the
-/// field: an element of std::array<T, N> for a View<T*[N]>. Fields of other number types are
-/// converted by the caller.
+/// Makes a field named "plica::NAME" with the values of a host vector. Elements of the vector are
+/// rows of the field: an element is std::array<T, N> for a View<T*[N]>. The caller converts values
+/// for fields of other number types.
 template <class View, class Element>
 View to_device(const std::string& name, const std::vector<Element>& values) {
   static_assert(std::is_trivially_copyable_v<Element> &&
@@ -109,8 +111,8 @@ View to_device(const std::string& name, const std::vector<Element>& values) {
   return view;
 }
 
-/// A large field that the host writes: in its place where host and device share their memory, else
-/// in a copy that upload() takes there.
+/// A large field that the host writes. Where host and device share their memory, the host writes in
+/// place. Elsewhere it writes a copy, which upload() takes to the device.
 template <class B, class View>
 class HostWritten {
  public:
@@ -131,7 +133,8 @@ class HostWritten {
   std::unique_ptr<Number[]> copy_;
 };
 
-// The kinds of fields that are common. Others work as well: they are compiled where they are used.
+// Common kinds of fields, compiled in fields.cpp. Others work as well: they are compiled where they
+// are used.
 #define PLICA_FIELD(EXTERN, Memory, ...)                                                  \
   EXTERN template Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory>                  \
   zeros<Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory>>(const std::string& label, \

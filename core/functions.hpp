@@ -8,8 +8,8 @@ namespace plica {
 
 namespace functions {
 
-/// The bits of x^(-1/3) to 3 % from those of x > 0, a number or a pack: a third of the exponent. By
-/// shifts, as packs have no division of integers.
+/// Turns the bits of x > 0 into those of x^(-1/3), to 3 %. It takes a third of the exponent, by
+/// shifts, because packs have no division of integers. x is a number or a pack.
 template <class Bits, class Start>
 KOKKOS_INLINE_FUNCTION void guess_inverse_cube_root(Bits& x, Start start) {
   x = (x >> 2) + (x >> 4);
@@ -67,7 +67,7 @@ KOKKOS_INLINE_FUNCTION Pack<T, N> exp(const Pack<T, N>& a) {
 KOKKOS_INLINE_FUNCTION double exp(double x) { return Kokkos::exp(x); }
 KOKKOS_INLINE_FUNCTION float exp(float x) { return Kokkos::exp(x); }
 
-/// b where a > 0, else c
+/// Returns b where a > 0, else c.
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION Pack<T, N> where_positive(const Pack<T, N>& a, const Pack<T, N>& b,
                                                  const Pack<T, N>& c = {}) {
@@ -84,11 +84,11 @@ KOKKOS_INLINE_FUNCTION double where_positive(double a, double b, double c = 0) {
 }
 KOKKOS_INLINE_FUNCTION float where_positive(float a, float b, float c = 0) { return a > 0 ? b : c; }
 
-/// Whether every lane is positive; a NaN is not.
+/// Returns true where every lane is positive; a NaN is not.
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION bool all_positive(const Pack<T, N>& a) {
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  // numbers of bits that are all set or all 0: a branch a lane would be foreseen badly
+  // each number has all bits set or all 0: a branch for each lane would be badly predicted
   const auto positive = a.v > 0;
   auto all = positive[0];
   for (int i = 1; i < N; ++i) all &= positive[i];
@@ -102,7 +102,7 @@ KOKKOS_INLINE_FUNCTION bool all_positive(const Pack<T, N>& a) {
 KOKKOS_INLINE_FUNCTION bool all_positive(double a) { return a > 0; }
 KOKKOS_INLINE_FUNCTION bool all_positive(float a) { return a > 0; }
 
-/// lane by lane the larger; a NaN in `a` stays
+/// Returns the larger number, lane by lane; a NaN in `a` stays.
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION Pack<T, N> max(const Pack<T, N>& a, const Pack<T, N>& b) {
   Pack<T, N> r;
@@ -116,7 +116,7 @@ KOKKOS_INLINE_FUNCTION Pack<T, N> max(const Pack<T, N>& a, const Pack<T, N>& b) 
 KOKKOS_INLINE_FUNCTION double max(double a, double b) { return a < b ? b : a; }
 KOKKOS_INLINE_FUNCTION float max(float a, float b) { return a < b ? b : a; }
 
-/// x^(-1/3), x > 0, to round-off, by Halley's method; not a number for x <= 0.
+/// Computes x^(-1/3) for x > 0, to round-off, by Halley's method. It is not a number for x <= 0.
 template <class T>
 KOKKOS_INLINE_FUNCTION T inverse_cube_root(const T& x) {
   using Real = typename LaneOf<T>::type;

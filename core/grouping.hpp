@@ -9,11 +9,12 @@
 
 namespace plica {
 
-/// Numbers sorted by their group, one group after the other, ascending in each.
+/// Numbers 0, 1, ... sorted by group: one group after the other, ascending in each.
 struct Grouping {
   std::vector<int> first, number;  ///< group g: number[first[g] ... first[g + 1] - 1]
 
-  /// @param group_of  of each number; negative: in none
+  /// Sorts the numbers by their groups.
+  /// @param group_of  group of each number; negative: the number is in no group
   Grouping(std::span<const int> group_of, std::size_t groups) : first(groups + 1, 0) {
     for (const int g : group_of)
       if (g >= 0) ++first[index_of(g) + 1];
@@ -34,7 +35,7 @@ struct Grouping {
   }
 };
 
-/// A mesh's tetrahedra by their regions.
+/// Returns the tetrahedra of a mesh, sorted by region.
 inline Grouping tets_by_region(const TetMesh& mesh) {
   if (mesh.region.empty()) return {std::vector<int>(mesh.tets.size(), 0), 1};
   return {mesh.region, index_of(*std::ranges::max_element(mesh.region)) + 1};

@@ -3,60 +3,65 @@
 #include <plica/core/matrices.hpp>
 #include <vector>
 
-/// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.
+/// Arrays of the hierarchical inverse mass, see cmake/docs/him.md.
 namespace plica {
 
-/// A coarser level, as the inverse mass sees it: a space of motions of the finest mesh, without
-/// elements or state. Except on the coarsest level its vertices count in units that make the
-/// inverse of its lumped mass 1: forces times s, accelerations over s, s^2 that inverse. Matrices
-/// are in float: P and its transpose are rounded alike, which keeps the inverse mass symmetric.
+/// A coarser level of the inverse mass: a space of motions of the finest mesh, without elements or
+/// state. Except on the coarsest level, vertices have units that make the inverse of the level's
+/// lumped mass 1. Forces are multiplied by s and accelerations divided by s, with s^2 that inverse.
+/// Matrices are in float: P and its transpose are rounded alike, which keeps the inverse mass
+/// symmetric.
 template <class B>
 struct MassLevel {
   int vertices = 0;
   SparseRows<B, float> up;    ///< P: values at this level's vertices -> at the next finer one's
-  SparseRows<B, float> down;  ///< its transpose
-  /// M = P^T (the finer level's M) P, its main entries; empty on the coarsest level
+  SparseRows<B, float> down;  ///< P^T
+  /// M = P^T (the finer level's M) P, main entries only; empty on the coarsest level
   SparseRows<B, float> mass;
-  SparseRows<B, float> share;  ///< Pi^T E^T: momentum here per momentum on u_C, see CoarseAxes;
-                               ///< empty on the coarsest level
-  Vectors<B> force;            ///< restricted
-  Vectors<B> acceleration;     ///< of this level and those below it
+  /// Pi^T E^T: momentum on this level per momentum on u_C, see CoarseAxes; empty on the coarsest
+  /// level
+  SparseRows<B, float> share;
+  Vectors<B> force;         ///< force, restricted to this level
+  Vectors<B> acceleration;  ///< acceleration by this level and those below it
 };
 
-/// What the coarsest level answers forces with: the modes of its own linear problem, in axes that
-/// turn with the body.
+/// Response of the coarsest level to forces: the modes of its own linear problem. They are in axes
+/// that turn with the body.
 template <class B>
 struct CoarseFilter {
-  static constexpr int group = 16;         ///< vertices whose rows lie together
-  static constexpr int block = 3 * group;  ///< such rows
+  static constexpr int group = 16;         ///< number of vertices whose rows lie together
+  static constexpr int block = 3 * group;  ///< number of rows of such a group
   int vertices = 0;
-  Kokkos::View<float*, typename B::Memory>
-      matrix;           ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
+  /// S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
+  Kokkos::View<float*, typename B::Memory> matrix;
   Vectors<B> turned;    ///< R^T force
-  Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
+  Vectors<B> rotation;  ///< R, [3 vertices][3]: three rows for each vertex
 };
 
-/// How the coarsest level's axes follow the body: u_C = E u; G = its gradient around a vertex; R =
-/// the rotation nearest to G. And the force by which they act back, g on u_C. Dense matrices lie as
-/// [groups of vertices][columns][group], see dense_rows().
+/// Axes of the coarsest level, which follow the body, and the force by which they act back. Coarse
+/// displacements are u_C = E u. G is the deformation gradient around a vertex, R the rotation
+/// nearest to G, and g the force on u_C. Dense matrices lie as [groups of
+/// vertices][columns][group], see dense_rows().
 template <class B>
 struct CoarseAxes {
   template <class Number>
   using Dense = Kokkos::View<Number*, typename B::Memory>;
 
-  SparseRows<B> restriction, spread;       ///< E, from the finest mesh, and its transpose
-  Dense<typename B::Real> gradient_of[3];  ///< column j of G - G at rest, of u_C: n columns each
-  Dense<typename B::Real> force_of;        ///< its transpose: 3 n columns
-  /// what torques add to the coarse momentum per second: Pi^T E^T times that
+  SparseRows<B> restriction, spread;  ///< E, from the finest mesh, and its transpose
+  /// Matrices from u_C to column j of G - G at rest: n columns each
+  Dense<typename B::Real> gradient_of[3];
+  /// Transpose of gradient_of, from torques to g: 3 n columns
+  Dense<typename B::Real> force_of;
+  /// Pi^T E^T force_of, from torques to what they add to the coarse momentum per second
   Dense<float> response;
-  /// G at rest is this times 1: 1, or 0 where the axes do not turn
+  /// Factor of the unit matrix in G at rest: 1, or 0 where the axes do not turn
   Scalars<B> at_rest;
   Vectors<B> displacement;  ///< u_C [m]
-  /// per work item the sum of the squares of the angles of a turn [rad^2]
+  /// Sum of the squares of the angles of a turn, per work item [rad^2]
   Doubles<B> angles;
-  /// (tr U 1 - U)^-1, U = R^T G, [3 vertices][3]; 0: R is not the nearest
+  /// (tr U 1 - U)^-1, U = R^T G, [3 vertices][3]; 0 where R is not the nearest rotation
   Vectors<B> stiffness;
-  /// what G is turned by, [3 vertices][3], its columns one after the other
+  /// Torque on the axes of each vertex, a 3x3 matrix column by column, [3 vertices][3]
   Vectors<B> torque;
   Vectors<B> force;  ///< g [N]
 };

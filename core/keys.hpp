@@ -12,41 +12,40 @@ namespace plica {
 
 /// A member of a family, such as a material.
 struct Choice {
-  std::string name;     ///< in scenes and options
+  std::string name;     ///< name in scenes and options
   std::string summary;  ///< one line
 };
 
-/// Their names alone, in the same order.
+/// Returns the names of choices, in their order.
 std::vector<std::string> names(const std::vector<Choice>& choices);
 
-/// The families that names come from. Each walks its own list (drivers/run/registry.cpp).
+// The families that names come from. Each walks its own list (drivers/run/registry.cpp).
 std::vector<Choice> materials();          ///< constitutive laws
-std::vector<Choice> volumes();            ///< what laws of tissue have for the volume
-std::vector<Choice> ogden_conventions();  ///< of the mu in Ogden's terms
+std::vector<Choice> volumes();            ///< volume energies of laws of tissue
+std::vector<Choice> ogden_conventions();  ///< conventions for mu in Ogden's terms
 std::vector<Choice> tissues();            ///< materials by the name of a tissue
-std::vector<Choice> presets();            ///< published methods, as what they consist of here
-std::vector<Choice> elements();           ///< how strains follow from the vertices, and auto
-std::vector<Choice> pressures();          ///< of nodal elements, and auto
+std::vector<Choice> presets();            ///< published methods, as options of this library
+std::vector<Choice> elements();           ///< kinds of elements, and auto
+std::vector<Choice> pressures();          ///< pressures of nodal elements, and auto
 std::vector<Choice> integrators();        ///< one-level ODE solvers
 std::vector<Choice> cycle_choices();      ///< ways to share a macro step, and auto
-std::vector<Choice> error_classes();      ///< of cycle auto
-std::vector<Choice> distributions();      ///< sizes of the shares
-std::vector<Choice> outside_rules();      ///< for vertices outside the other level's mesh
-std::vector<Choice> relaxation_rules();   ///< how Prony series go on in time
-/// which obstacles touch the surface between its points, too
+std::vector<Choice> error_classes();      ///< error classes of cycle auto
+std::vector<Choice> distributions();      ///< rules for the sizes of the shares
+std::vector<Choice> outside_rules();      ///< rules for vertices outside the other level's mesh
+std::vector<Choice> relaxation_rules();   ///< integration of Prony series in time
+/// Rules for which obstacles touch the surface between its points, too
 std::vector<Choice> whole_surface_rules();
-std::vector<Choice> linear_solver_choices();   ///< of implicit levels, and auto
-std::vector<Choice> preconditioner_choices();  ///< of conjugate gradients, and auto
-std::vector<Choice> matrix_choices();          ///< of linear systems, and auto
-std::vector<Choice> tangents();                ///< of the elements, in their systems
-std::vector<Choice> unsolved_outcomes();       ///< of steps that Newton's method does not solve
+std::vector<Choice> linear_solver_choices();   ///< linear solvers of implicit levels, and auto
+std::vector<Choice> preconditioner_choices();  ///< preconditioners of conjugate gradients, and auto
+std::vector<Choice> matrix_choices();          ///< storage of linear systems, and auto
+std::vector<Choice> tangents();                ///< tangents of the elements in linear systems
+std::vector<Choice> unsolved_outcomes();  ///< outcomes of steps that Newton's method does not solve
 
 }  // namespace plica
 
-/// What an option may be: its kind, with unit and range. The tables of describe.hpp give every
-/// option one of these kinds. A kind can say what is expected, show a value as a scene would have
-/// it, and check one: expects(), shown(), check(). check() throws InputError "PATH is VALUE;
-/// expected WHAT".
+/// Kinds of options, with unit and range. The tables of describe.hpp give every option one of these
+/// kinds. expects() says what is expected, shown() shows a value as a scene would have it, and
+/// check() checks one. check() throws InputError "PATH is VALUE; expected WHAT".
 namespace plica::keys {
 
 /// Exponents of kilogram, metre, second and radian. An angle counts as a dimension of its own, so
@@ -68,31 +67,34 @@ inline constexpr Dimension density{.mass = 1, .length = -3};
 inline constexpr Dimension force{.mass = 1, .length = 1, .time = -2};
 inline constexpr Dimension angle{.angle = 1};
 
-/// "a pressure", "a length"; a product of SI units where the dimension has no name.
+/// Returns the name of a dimension: "a pressure", "a length". Without a name it is a product of SI
+/// units.
 std::string name_of(const Dimension& dimension);
+/// Returns the name of a dimension in the plural: "pressures", "lengths".
 std::string plural_of(const Dimension& dimension);
 
-/// "Pa", "m", "kg/m^3"; empty for a number.
+/// Returns the unit of a dimension: "Pa", "m", "kg/m^3"; empty for a number.
 std::string unit_of(const Dimension& dimension);
 
+/// Range of a number.
 struct Bounds {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_excluded = false;
   bool max_excluded = false;
-  bool contains(double value) const;  ///< never what is not finite
-  /// "> 0", "in [0, 0.5)"; empty when all values are in it
+  bool contains(double value) const;  ///< false for what is not finite
+  /// Returns the range as text: "> 0", "in [0, 0.5)"; empty when it contains all values.
   std::string text(const std::string& unit = {}) const;
 };
 inline constexpr Bounds any_value{};
 inline constexpr Bounds positive{.min = 0, .min_excluded = true};
 inline constexpr Bounds not_negative{.min = 0};
 inline constexpr Bounds zero_to_one{.min = 0, .max = 1};
-/// from 0
+/// Range [0, 1)
 inline constexpr Bounds below_one{.min = 0, .max = 1, .max_excluded = true};
-/// above 0
+/// Range (0, 1]
 inline constexpr Bounds up_to_one{.min = 0, .max = 1, .min_excluded = true};
-/// neither
+/// Range (0, 1)
 inline constexpr Bounds inside_zero_one{
     .min = 0, .max = 1, .min_excluded = true, .max_excluded = true};
 
@@ -105,7 +107,7 @@ struct Quantity {
   void check(const std::string& path, double value) const;
 };
 
-/// A quantity or `auto`, which is none.
+/// A quantity or `auto`, which is no value.
 struct AutoQuantity {
   Quantity quantity;
   std::string expects() const { return quantity.expects() + ", or auto"; }
@@ -124,7 +126,7 @@ struct Vector {
   void check(const std::string& path, const Point& value) const;
 };
 
-/// Three numbers whose length does not matter, but that it is above 0.
+/// Three numbers that give a direction: their length is above 0 and does not matter otherwise.
 struct Direction {
   std::string expects() const { return Vector{plain}.expects(); }
   std::string shown(const Point& value) const { return Vector{plain}.shown(value); }
@@ -140,7 +142,7 @@ struct Count {
   void check(const std::string& path, int value) const;
 };
 
-/// A whole number, or `auto`, which is another one.
+/// A whole number, or `auto`, which is stored as the number `automatic`.
 struct AutoCount {
   int min = 1;
   int max = std::numeric_limits<int>::max();
@@ -174,7 +176,7 @@ struct Text {
 /// One of a family's names.
 struct Name {
   const char* family;                ///< "material"
-  std::vector<Choice> (*choices)();  ///< what there is
+  std::vector<Choice> (*choices)();  ///< names to choose from
   std::string expects() const;
   std::string shown(const std::string& value) const { return value; }
   void check(const std::string& path, const std::string& value) const;
@@ -254,7 +256,7 @@ struct ListOf {
   }
 };
 
-/// An entry of a map of numbers, where it is given.
+/// An entry of a map of numbers; it may be missing.
 struct Entry {
   const char* name;
   Quantity quantity;
@@ -270,17 +272,17 @@ struct Entry {
 
 // Kinds of options that have options of their own.
 
-/// A struct with a table, or an optional one.
+/// A struct with a table, or an optional such struct.
 struct Group {};
-/// A vector of such.
+/// A vector of structs with a table.
 struct List {};
-/// Such by names of one's own.
+/// A map of structs with a table, by names that the user chooses.
 struct Map {};
 /// A struct with a table that a variant or an optional may hold.
 template <class T>
 struct Case {};
 
-/// "Type::Member" from &Type::Member.
+/// Types of a member pointer &Type::Member: the struct and the value.
 template <auto Member>
 struct MemberOf;
 template <class T, class M, M T::*Member>
@@ -288,14 +290,15 @@ struct MemberOf<Member> {
   using Type = T;
   using Value = M;
 };
-/// A value that stands for an alternative of a variant: that with this member, which has the kind.
+/// A value that stands for an alternative of a variant. `Member` is the member of that alternative,
+/// and has the kind.
 template <auto Member, class Kind>
 struct As : MemberOf<Member> {
   Kind kind;
   explicit As(const Kind& of_member) : kind(of_member) {}
   std::string expects() const { return kind.expects(); }
 };
-/// A list that stands for an alternative of a variant, in this member.
+/// A list that stands for an alternative of a variant. `Member` is the list in that alternative.
 template <auto Member>
 struct CaseList : MemberOf<Member> {};
 
@@ -303,16 +306,16 @@ struct CaseList : MemberOf<Member> {};
 
 namespace plica {
 
-/// A number that a material asks for: body.material.NAME in a scene, and body.regions.REGION.NAME
-/// for a region of its own.
+/// A number that a material asks for. In a scene it is body.material.NAME, and
+/// body.regions.REGION.NAME for a region of its own.
 struct MaterialParameter {
   const char* name;
-  keys::Quantity kind;  ///< its unit and range
+  keys::Quantity kind;  ///< kind with unit and range
   const char* help;     ///< one line
-  double standard;      ///< where nothing is given, in SI
+  double standard;      ///< value where nothing is given, in SI
 };
 
-/// What materials declare beyond the options that every body has.
+/// Returns the parameters that materials declare beyond the options of every body.
 std::vector<MaterialParameter> material_parameters();
 
 }  // namespace plica

@@ -4,12 +4,13 @@
 #include <type_traits>
 
 // Every kernel goes through launch(), every argument that changes from step to step is a Changing.
-// A GPU takes a few microseconds for each launch by itself, and a step has dozens of short ones; so
-// there a step's launches are gathered, and those that come again just as before go out as one
+// A GPU takes a few microseconds for each single launch, and a step has dozens of short ones. So on
+// a GPU the launches of a step are gathered, and sequences that repeat unchanged go out as one
 // graph (launch_queue.hpp). A CPU launches at once, and nothing of this is left.
 namespace plica {
 
-/// Whether Kokkos lends the kernel global memory, which may be elsewhere the next time.
+/// Returns true where Kokkos lends the kernel global memory. It may be elsewhere at the next
+/// launch.
 template <class Policy>
 bool takes_pooled_memory(const Policy& policy) {
   if constexpr (requires { policy.league_size(); })
@@ -18,8 +19,8 @@ bool takes_pooled_memory(const Policy& policy) {
     return false;
 }
 
-/// Kokkos::parallel_for, at once or when the queue is emptied. What the kernel points to lives
-/// until then.
+/// Calls Kokkos::parallel_for, at once or when the queue is emptied. Memory that the kernel points
+/// to must live until then.
 template <class Policy, class Work>
 void launch(const char* label, const Policy& policy, const Work& work) {
   using Exec = typename Policy::execution_space;
@@ -32,7 +33,7 @@ void launch(const char* label, const Policy& policy, const Work& work) {
   Kokkos::parallel_for(label, policy, work);
 }
 
-/// launch(a true or false type) by a condition that is known at run time only.
+/// Calls launch(std::true_type or std::false_type) by a condition that is known at run time only.
 template <class Launch>
 void by_case(bool condition, const Launch& launch) {
   if (condition)
@@ -41,7 +42,8 @@ void by_case(bool condition, const Launch& launch) {
     launch(std::false_type());
 }
 
-/// Sends out what waits: before the host waits for a space, or launches there without launch().
+/// Sends out the launches that wait. Call it before the host waits for a space, or launches there
+/// without launch().
 template <class Exec>
 void launch_gathered() {
   if constexpr (gathers<Exec>)
@@ -55,10 +57,10 @@ void fence(const Exec& exec, const char* label) {
   exec.fence(label);
 }
 
-/// An argument of a kernel that may be another in the next step: a place, a time, a factor. In
-/// gathered launches it lies in device memory, so that the launch stays the same. It is made for
-/// one launch, which comes at once: when the queue is emptied, its place is used again. Within a
-/// step only kernels read it.
+/// A kernel argument that may change in the next step: a place, a time, a factor. In gathered
+/// launches it lies in device memory, so that the launch stays the same. It is made for one launch,
+/// which comes at once: when the queue is emptied, its place is used again. Within a step only
+/// kernels read it.
 template <class B, class T, bool = gathers<typename B::Exec>>
 class Changing {
  public:
@@ -95,7 +97,7 @@ class Changing<B, T, true> {
 
  private:
   const T* place_ = nullptr;
-  // the value where it has no place, in whole words
+  // the value where it has no place on the device, in whole words
   alignas(
       Word) unsigned char bytes_[(sizeof(T) + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word)] = {};
 };

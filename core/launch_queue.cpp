@@ -11,11 +11,11 @@ namespace plica {
 namespace {
 
 constexpr std::size_t room = 2048;  // words for values
-constexpr long shortest = 3;        // launches that are worth a graph
+constexpr long shortest = 3;        // launches that are worth a graph, at least
 constexpr std::size_t most_known = 64;
 
-/// Values as arguments: they are on the way when the launch returns, and the host may change its
-/// own.
+/// Values as kernel arguments. They are on the way when the launch returns, and the host may change
+/// its own copy.
 template <class Memory>
 struct PutWords {
   static constexpr std::size_t most = 400;
@@ -31,7 +31,7 @@ void go(const Launches& launches) {
   for (const auto& launch : launches) launch->go();
 }
 
-/// A sequence that is launched as one: as it is, on a CPU, which has no graphs.
+/// A sequence that is launched as one. A CPU has no graphs: its launches go out one by one.
 template <class Exec>
 class Graph {
  public:
@@ -49,9 +49,9 @@ class Graph {
 template <>
 class Graph<Kokkos::Cuda> {
  public:
-  /// Captures launches, which does not run them; none where CUDA refuses, as in a stream that the
-  /// caller captures. Only this thread is held to what a capture allows; Kokkos's own
-  /// cuda_capture() holds all threads to it.
+  /// Captures launches without running them. Returns none where CUDA refuses, as in a stream that
+  /// the caller captures. What a capture forbids is forbidden to this thread only; Kokkos's own
+  /// cuda_capture() forbids it to all threads.
   static std::unique_ptr<Graph> capture(const Kokkos::Cuda& exec, const Launches& launches) {
     if (cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal) != cudaSuccess)
       return refused();
@@ -87,7 +87,7 @@ class Graph<Kokkos::Cuda> {
 
   Graph(const Kokkos::Cuda& exec, cudaGraphExec_t graph) : exec_(exec), graph_(graph) {}
   static std::unique_ptr<Graph> refused() {
-    static_cast<void>(cudaGetLastError());  // or a later call reports it
+    static_cast<void>(cudaGetLastError());  // else a later call reports it
     return {};
   }
 };
@@ -105,7 +105,7 @@ template <class Exec, bool on>
 struct LaunchQueue<Exec, on>::Sequence {
   Launches launches;
   std::unique_ptr<Graph<Exec>> graph = {};
-  bool refused = false;  // it cannot be a graph
+  bool refused = false;  // CUDA does not make it a graph
 
   bool is(const Launches& others) const {
     return std::ranges::equal(launches, others,
@@ -149,7 +149,7 @@ void LaunchQueue<Exec, on>::send_values() {
 
 template <class Exec, bool on>
 void LaunchQueue<Exec, on>::launch_all() {
-  send_values();  // also for a launch that is not gathered
+  send_values();  // a launch that is not gathered needs them, too
   if (waiting_.empty()) return;
   Launches launches;
   launches.swap(waiting_);

@@ -10,8 +10,8 @@
 
 namespace plica {
 
-/// Whether launches on an execution space are gathered, and for which spaces of this build they
-/// are.
+/// True where launches on an execution space are gathered. PLICA_FOR_EACH_GATHERING_SPACE lists the
+/// spaces of this build for which they are.
 #if defined(PLICA_LIKE_DEVICE)
 template <class Exec>
 inline constexpr bool gathers = true;
@@ -27,18 +27,18 @@ inline constexpr bool gathers = false;
 #define PLICA_FOR_EACH_GATHERING_SPACE(DO)
 #endif
 
-/// A launch that waits.
+/// A launch that waits in a queue.
 class Launch {
  public:
   Launch() = default;
   virtual ~Launch() = default;
   Launch(const Launch&) = delete;
   Launch& operator=(const Launch&) = delete;
-  /// Memory that is 0: what lies between the members of equal launches is equal, too.
+  /// Returns memory that is 0. Bytes between the members of equal launches are then equal, too.
   static void* operator new(std::size_t bytes);
   static void operator delete(void* memory);
   virtual void go() const = 0;
-  /// The same kernel over the same range with the same arguments.
+  /// Returns true for the same kernel over the same range with the same arguments.
   virtual bool same(const Launch& other) const = 0;
 };
 
@@ -51,7 +51,8 @@ class Gathered final : public Launch {
 
   Gathered(const char* label, const Policy& policy, const Work& work)
       : label_(label), policy_(policy), work_(work) {
-    if constexpr (std::is_trivially_copyable_v<Work>) clear_padding();  // or it is the caller's
+    // otherwise padding would be that of the caller's copy
+    if constexpr (std::is_trivially_copyable_v<Work>) clear_padding();
   }
 
   void go() const override { Kokkos::parallel_for(label_, policy_, work_); }
@@ -82,14 +83,14 @@ class Gathered final : public Launch {
   }
 };
 
-/// Launches of one simulation, from the start of a step to its end or to where the host waits in
-/// it. A sequence that comes for the second time is made a graph (on CUDA: captured), which is
-/// replayed from then on: one launch in place of many. Any other goes out launch by launch. So what
-/// is computed is the same in any case.
+/// Queue of the launches of one simulation, from the start of a step to its end. Where the host
+/// waits within the step, the launches go out before. A sequence that comes for the second time is
+/// made a graph (on CUDA: captured). The graph is then replayed: one launch in place of many. Any
+/// other sequence goes out launch by launch. The results are the same in any case.
 ///
-///   launch(), launch(), ...   waiting_: kernels and their arguments    values_: what Changing ones are now
-///   launch_all()              the values to the device; then, of a sequence that is known_, its graph,
-///                             of a new one each launch, and it is known_
+///   launch(), launch(), ...   waiting_: kernels and arguments; values_: of the Changing ones
+///   launch_all()              the values to the device; then for a sequence in known_ its graph,
+///                             for a new one each launch, and it goes into known_
 template <class Exec, bool = gathers<Exec>>
 class LaunchQueue {
  public:
@@ -100,12 +101,13 @@ class LaunchQueue {
   LaunchQueue(const LaunchQueue&) = delete;
   LaunchQueue& operator=(const LaunchQueue&) = delete;
 
-  /// While it lives, launches of this thread are gathered.
+  /// Gathers the launches of this thread while it lives.
   class Scope {
    public:
-    /// none: they go out at once
+    /// Gathers into a queue; none: launches go out at once.
     explicit Scope(LaunchQueue* queue) : before_(now_) { now_ = queue; }
-    /// Sends out what an exception left. Else launch_all() comes before it, since that may throw.
+    /// Sends out the launches that an exception left. Without one, launch_all() is called before,
+    /// since it may throw.
     ~Scope() {
       try {
         if (now_) now_->launch_all();
@@ -119,18 +121,20 @@ class LaunchQueue {
    private:
     LaunchQueue* before_;
   };
-  /// The one that gathers; none: nothing does.
+  /// Returns the queue that gathers on this thread; none: launches are not gathered.
   static LaunchQueue* now() { return now_; }
 
-  /// Where values then take up much of their room, all that waits goes out.
+  /// Adds a launch. Sends out all launches that wait where values take up more than half of their
+  /// room.
   void add(std::unique_ptr<Launch> launch);
-  /// Where a value will lie on the device when the launches go out; none where there is no room.
+  /// Returns the address that a value will have on the device when the launches go out. None where
+  /// there is no room.
   const void* put(const void* value, std::size_t bytes);
-  /// Sends out what waits. Throws what the launches throw.
+  /// Sends out the launches that wait. Throws what they throw.
   void launch_all();
 
   long in_graphs() const { return in_graphs_; }  ///< launches so far that went out in a graph
-  long alone() const { return alone_; }          ///< and one by one
+  long alone() const { return alone_; }          ///< launches so far that went out one by one
 
  private:
   using Launches = std::vector<std::unique_ptr<Launch>>;
@@ -140,14 +144,14 @@ class LaunchQueue {
   Exec exec_;
   Launches waiting_;
   std::vector<Word> values_;
-  Kokkos::View<Word*, typename Exec::memory_space> place_;  // of the values
-  std::vector<std::unique_ptr<Sequence>> known_;            // the last one first
+  Kokkos::View<Word*, typename Exec::memory_space> place_;  // memory of the values
+  std::vector<std::unique_ptr<Sequence>> known_;            // the last used first
   long in_graphs_ = 0, alone_ = 0;
 
   void send_values();
 };
 
-/// Where launches are not gathered.
+/// Queue for a space where launches are not gathered.
 template <class Exec>
 class LaunchQueue<Exec, false> {
  public:

@@ -10,16 +10,16 @@
 
 namespace plica {
 
-/// The first inverted element of each patch since the last clear, where none is allowed: of several
-/// in one evaluation, whose threads may all come at once on a GPU, the one with the smallest slot.
-/// So what is kept does not depend on the threads.
+/// First inverted element of each patch since the last clear, where none is allowed. One evaluation
+/// may find several, and on a GPU all its threads may come at once. The element with the smallest
+/// slot is then taken, which does not depend on the threads.
 template <class B>
 struct ElementFlags {
   using Word = unsigned long long;
-  Kokkos::View<int, typename B::Memory> raised;  ///< 0: none anywhere
-  /// [patches] of the force, counted from 1; 0: none
+  Kokkos::View<int, typename B::Memory> raised;  ///< 0: no element is inverted
+  /// [patches] evaluation of the force that found it, counted from 1; 0: none
   Indices<B> evaluation;
-  /// [patches] slot and volume ratio in one, to be replaced at once
+  /// [patches] slot and volume ratio in one word, so that both are replaced at once
   Kokkos::View<Word*, typename B::Memory> word;
 
   KOKKOS_INLINE_FUNCTION void raise(int patch, int now, int slot, typename B::Real ratio) const {
@@ -29,9 +29,9 @@ struct ElementFlags {
     if (before == 0 || before == now)
       Kokkos::atomic_max(&word(patch), Word{~static_cast<std::uint32_t>(slot)} << 32 | bits);
   }
-  /// Of a word: pack * lanes + lane.
+  /// Returns the slot in a word: pack * lanes + lane.
   static int slot(Word word) { return static_cast<int>(~static_cast<std::uint32_t>(word >> 32)); }
-  /// Of a word: the volume ratio.
+  /// Returns the volume ratio in a word.
   static float J(Word word) { return Kokkos::bit_cast<float>(static_cast<std::uint32_t>(word)); }
 
   void clear(const typename B::Exec& exec) const {
@@ -54,12 +54,12 @@ template <class B>
 struct PrescribedVertices {
   int count = 0;
   Indices<B> vertex;  ///< [count]
-  Indices<B> path;    ///< [count] the one it follows
+  Indices<B> path;    ///< [count] path that the vertex follows
   Kokkos::View<Path*, typename B::Memory> paths;
   Kokkos::View<PathKnot*, typename B::Memory> knots;
 };
 
-/// A dead load's forces at factor 1.
+/// Forces of a dead load at factor 1.
 template <class B>
 struct Load {
   int count = 0;
@@ -68,52 +68,60 @@ struct Load {
   LoadCourse course;
 };
 
-/// What triangles enclose where its volume is given, see EnclosedVolume.
+/// Volume that triangles enclose, for a load that gives it, see EnclosedVolume.
 struct Cavity {
-  int load = 0;     ///< of the body's loads
+  int load = 0;     ///< number among the body's loads
   double rest = 0;  ///< volume at rest [m^3]
-  /// the part of it that closes the rims, which does not change [m^3]
+  /// Part of the volume that closes the rims and does not change [m^3]
   double caps = 0;
-  double ratio = 1;              ///< of the volume at rest
-  double bulk_modulus = 0;       ///< [Pa]
-  Point origin = Point::Zero();  ///< of the vertices' places at rest [m]
+  double ratio = 1;         ///< volume given at factor 1, over that at rest
+  double bulk_modulus = 0;  ///< [Pa]
+  /// Point from which the places of vertices at rest are measured [m]
+  Point origin = Point::Zero();
 
-  double stiffness() const { return bulk_modulus / rest; }                        ///< [Pa/m^3]
-  double goal(double factor) const { return rest * (1 + (ratio - 1) * factor); }  ///< [m^3]
+  /// Returns the pressure per volume that is missing [Pa/m^3].
+  double stiffness() const { return bulk_modulus / rest; }
+  /// Returns the volume that is given at a factor [m^3].
+  double goal(double factor) const { return rest * (1 + (ratio - 1) * factor); }
 };
 
-/// A pressure on triangles of the boundary, wherever they are.
+/// A pressure on triangles of the boundary, wherever they are in the current state.
 template <class B>
 struct FollowerLoad {
-  int count = 0;      ///< of vertices
+  int count = 0;      ///< number of vertices
   Indices<B> vertex;  ///< [count]
   Vectors<B> rest;    ///< [count][3] m
-  Indices<B> first;   ///< [count + 1] of the corners of triangles at each
-  /// [corners] the other two, counterclockwise from outside, as places in `vertex`
+  /// [count + 1] into second and third: the corners of triangles at each vertex
+  Indices<B> first;
+  /// [corners] the other two vertices of the triangle, counterclockwise from outside, as places in
+  /// `vertex`
   Indices<B> second, third;
   double pressure = 0;  ///< [Pa]
   LoadCourse course;
-  std::optional<Cavity> cavity = {};  ///< its fluid has the pressure then
-  /// [1] that they enclose, up to a constant, as last measured [m^3]; [0]: rims move
+  /// Cavity that the triangles enclose; the pressure is then that of its fluid
+  std::optional<Cavity> cavity = {};
+  /// [1] volume that the triangles enclose, up to a constant, as last measured [m^3]; [0]: rims
+  /// move
   Doubles<B> volume = {};
 };
 
-/// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A
+/// Memory of a viscous material for its elements: packs of linear ones, rows of nodal ones. A
 /// symmetric matrix is xx yy zz xy xz yz.
 template <class B>
 struct StressMemory {
-  int terms = 0;      ///< of the longest Prony series of a region
+  int terms = 0;      ///< number of terms of the longest Prony series
   Indices<B> region;  ///< [slots / lanes]
   /// [regions][terms][2] keep and gain of H_i <- keep H_i + gain (S - S before) over a step
   Scalars<B> step;
   /// [slots][1 + terms][6] isochoric second Piola stress: elastic, and of each term [Pa]
   Scalars<B> memory;
-  /// [slots][6] what relaxation takes off the second Piola stress where it is looked at [Pa]
+  /// [slots][6] relaxed stress at the time of the forces, without the part that follows the state.
+  /// It is taken off the second Piola stress [Pa]
   Scalars<B> lost;
 };
 
-/// One resolution of the body: what is constant, its state, what is needed to integrate it, and how
-/// it exchanges states with its neighbours. Members that a scene does not need stay empty.
+/// One resolution of the body: constants, state, work arrays, and the exchange of states with its
+/// neighbour levels. Members that a scene does not need stay empty.
 template <class B>
 struct Level {
   Model<B> model;
@@ -121,21 +129,25 @@ struct Level {
   PrescribedVertices<B> prescribed;
   std::vector<Load<B>> loads;
   std::vector<FollowerLoad<B>> followers;
-  EmbeddedSurface<B> surface;  ///< only with contact; on level 0 also for looking at
+  EmbeddedSurface<B> surface;  ///< with contact; on level 0 also for output
 
-  Vectors<B> f;            ///< [vertices][3] force at the state about to be integrated [N]
-  Vectors<B> partial;      ///< [shares][3] what the element kernels leave, a row per share
-  NodalWork<B> nodal;      ///< with nodal elements only
-  StressMemory<B> stress;  ///< of viscous materials only
-  ElementFlags<B> flags;   ///< only where no element may be inverted
+  Vectors<B> f;  ///< [vertices][3] force at the state about to be integrated [N]
+  /// [shares][3] results of the element kernels, a row per share
+  Vectors<B> partial;
+  NodalWork<B> nodal;      ///< work arrays of nodal elements
+  StressMemory<B> stress;  ///< memory of viscous materials
+  ElementFlags<B> flags;   ///< inverted elements, where none is allowed
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
-  Transfer<B> to_finer;    ///< P: level i -> i-1, likewise
-  /// of the finer level's to_finer, where a cycle conserves what it hands down
+  Transfer<B> to_finer;    ///< P: level i -> i-1, empty on the finest
+  /// Adjoint of to_finer, where a cycle conserves what it hands down
   Restriction<B> adjoint;
-  State<B> start;          ///< at the start of this cycle, where variations are mapped
-  State<B> previous;       ///< at the start of the last cycle, likewise
-  Scalars<B> drift_limit;  ///< [vertices] m, where mappings are switched
+  /// State at the start of this cycle, from which variations are mapped
+  State<B> start;
+  /// State at the start of the last cycle, from which variations are mapped
+  State<B> previous;
+  /// [vertices] drift above which switched mappings take the state [m]
+  Scalars<B> drift_limit;
 };
 
 }  // namespace plica

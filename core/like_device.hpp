@@ -3,8 +3,8 @@
 #include <Kokkos_Core.hpp>
 #include <cmath>
 
-// A build for tests alone (tests/like_device) gives a CPU the kernels of a GPU: one element a
-// thread, teams of several threads. Its teams and work items are done in an order that the tests
+// A build for tests alone (tests/like_device) gives a CPU the kernels of a GPU. A thread then has
+// one element, and a team several threads. Teams and work items are done in an order that the tests
 // choose, because a GPU promises none. In all other builds nothing is left of this.
 namespace plica::like_device {
 
@@ -12,7 +12,7 @@ namespace plica::like_device {
 
 inline constexpr bool on = true;
 inline int team = 4;  ///< threads of a team
-/// in which a league's teams and a range's items are done; 0: one after the other
+/// Order in which a league's teams and a range's items are done; 0: one after the other
 inline unsigned order = 0;
 
 template <class Exec>
@@ -20,7 +20,7 @@ int team_size(int) {
   return Kokkos::min(team, Exec().concurrency());
 }
 
-/// Which of n things is done in place i: start + i * stride modulo n, for a stride that has no
+/// Returns which of n things is done in place i: start + i * stride modulo n. The stride has no
 /// factor in common with n.
 inline int place(int i, int n) {
   if (order == 0 || n < 2) return i;
@@ -44,13 +44,13 @@ struct Shuffled {
   Work work;
   void operator()(int i) const { work(place(i, n)); }
 };
-/// Work on the items below n, in that order.
+/// Returns work on the items below n in the order of place().
 template <class Work>
 Shuffled<Work> shuffled(int n, const Work& work) {
   return {n, work};
 }
 
-/// Fills a team's memory with NaN, which it must not read before it writes.
+/// Fills a team's memory with NaN, so that a test finds a read before the first write.
 template <class Member, class Real>
 void spoil(const Member& member, Real* memory, std::size_t count) {
   Kokkos::parallel_for(Kokkos::TeamThreadRange(member, count),

@@ -4,73 +4,76 @@
 #include <variant>
 #include <vector>
 
-/// Forces from outside: those that keep their size and direction whatever the body does (dead
-/// loads), and pressures that follow it.
+/// Forces from outside. Dead loads keep their size and direction whatever the body does; pressures
+/// follow the body.
 namespace plica {
 
-/// On the boundary triangles at rest all of whose vertices are chosen.
+/// Force per area at rest, on the boundary triangles with all their vertices chosen.
 struct Traction {
   Point value = Point::Zero();  ///< [Pa]
 };
 
-/// On the chosen vertices together, each in proportion to its mass.
+/// Force on the chosen vertices together, on each in proportion to its mass.
 struct TotalForce {
   Point value = Point::Zero();  ///< [N]
 };
 
-/// On the boundary triangles all of whose vertices are chosen, against their sides as they are now:
-/// it turns and grows with them.
+/// Pressure on the boundary triangles with all their vertices chosen. It acts against their current
+/// sides: it turns and grows with them.
 struct FollowerPressure {
   double value = 0;  ///< [Pa]; above 0 it pushes into the body
 };
 
-/// On the same triangles, the pressure of a fluid that fills what they enclose on their outer side:
-/// K (V given - V now) / V at rest. The volume given goes from that at rest, where the course is 0,
-/// to `ratio` times that, where it is 1.
+/// Pressure of a fluid in a cavity: K (volume given - current volume) / volume at rest. The fluid
+/// fills what the boundary triangles with all their vertices chosen enclose on their outer side.
+/// The volume given goes from that at rest, where the time function is 0, to `ratio` times that,
+/// where it is 1.
 struct EnclosedVolume {
-  double ratio = 1;         ///< above 0
-  double bulk_modulus = 0;  ///< K [Pa]
+  double ratio = 1;         ///< volume given over that at rest, above 0
+  double bulk_modulus = 0;  ///< K of the fluid [Pa]
 };
 
-/// 1 at all times.
+/// Time function that is 1 at all times.
 struct ConstantCourse {};
 
-/// From 0 to 1 over the duration, smoothly: (1 - cos(pi t / duration)) / 2.
+/// Time function that rises smoothly from 0 to 1 over the duration: (1 - cos(pi t / duration)) / 2.
 struct RampCourse {
   double duration = 1;  ///< [s]
 };
 
-/// Straight from one factor to the next; the first holds before it, the last after it.
+/// Time function that is linear between given factors. Before the first knot it has the first
+/// factor, after the last knot the last.
 struct PolygonCourse {
   /// A factor at a time.
   struct Knot {
     double time = 0;    ///< [s], each after the one before
-    double factor = 1;  ///< of the load
+    double factor = 1;  ///< factor of the load
   };
   std::vector<Knot> knots;  ///< at least one
 };
 
-/// sin(2 pi frequency t + phase)
+/// Time function sin(2 pi frequency t + phase).
 struct SineCourse {
   double frequency = 1;  ///< [1/s]
   double phase = 0;      ///< [rad]
 };
 
-/// A load's factor over time.
+/// Time function by which a load is multiplied.
 using LoadCourse = std::variant<ConstantCourse, RampCourse, PolygonCourse, SineCourse>;
 
-/// What a load has that gives a volume.
+/// Volume and pressure of the cavity of a load that gives the volume.
 struct CavityState {
-  int load = 0;         ///< of the body's loads
+  int load = 0;         ///< number among the body's loads
   double volume = 0;    ///< [m^3]
   double pressure = 0;  ///< [Pa]
 };
 
 /// A load on a part of the body.
 struct LoadOptions {
-  Selection where;                                                            ///< of vertices
-  std::variant<Traction, TotalForce, FollowerPressure, EnclosedVolume> load;  ///< what acts on them
-  LoadCourse course;                                                          ///< times this factor
+  Selection where;  ///< chosen vertices
+  /// Load on the chosen vertices
+  std::variant<Traction, TotalForce, FollowerPressure, EnclosedVolume> load;
+  LoadCourse course;  ///< factor of the load over time
 };
 
 }  // namespace plica

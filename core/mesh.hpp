@@ -22,17 +22,18 @@ struct Box {
 struct TetMesh {
   std::vector<Point> vertices;           ///< [m]
   std::vector<std::array<int, 4>> tets;  ///< vertex indices
-  /// per tet an index into region_names; empty: one nameless region
+  /// Index into region_names for each tet; empty: one nameless region
   std::vector<int> region;
-  std::vector<std::string> region_names;  ///< unique
-  /// named vertices (surface, line and point groups), ascending
+  std::vector<std::string> region_names;  ///< unique names
+  /// Named vertices (surface, line and point groups), ascending
   std::map<std::string, std::vector<int>> vertex_sets;
-  /// per tet the part of it that is body, in (0, 1]; empty: all of each
+  /// Part of each tet that is body, in (0, 1]; empty: all of each
   std::vector<double> filled = {};
-  std::map<std::string, std::vector<Point>> tet_vectors =
-      {};  ///< named vectors, one per tet: such as directions of fibres
+  /// Named vectors, one per tet, such as directions of fibres
+  std::map<std::string, std::vector<Point>> tet_vectors = {};
 
-  /// Of a tetrahedron. Its mass, stiffness and energy are this part of what its volume would have.
+  /// Returns the part of a tetrahedron that is body. Its mass, stiffness and energy are this part
+  /// of what its volume would have.
   double part(std::size_t tet) const { return filled.empty() ? 1 : filled[tet]; }
 };
 
@@ -42,12 +43,12 @@ struct TriangleSurface {
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// Six times this is the determinant of the edges from vertex 0. [m^3]
+/// Returns a sixth of the determinant of the edges from vertex `a`: the volume [m^3].
 inline double tet_volume(const Point& a, const Point& b, const Point& c, const Point& d) {
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
 
-/// The smallest box around the points; both ends zero when there is none.
+/// Returns the smallest box around the points; both ends are zero without points.
 Box bounding_box(const std::vector<Point>& points);
 
 }  // namespace plica

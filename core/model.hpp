@@ -6,7 +6,7 @@
 
 namespace plica {
 
-/// Mass-proportional damping [1/s]: of all vertices, or where regions differ of each.
+/// Mass-proportional damping [1/s]: one for all vertices, or one for each where regions differ.
 template <class B>
 struct MassDamping {
   typename B::Real everywhere = 0;
@@ -16,25 +16,28 @@ struct MassDamping {
   }
 };
 
-/// What stays constant at the vertices of one level.
+/// Constants of the vertices of one level.
 template <class B>
 struct VertexModel {
-  Scalars<B> mass;          ///< lumped [kg], > 0
-  Scalars<B> inverse_mass;  ///< [1/kg]; 0: the vertex's motion is given, forces do not move it
+  Scalars<B> mass;  ///< lumped [kg], > 0
+  /// [1/kg]; 0: the motion of the vertex is given, forces do not move it
+  Scalars<B> inverse_mass;
   MassDamping<B> damping;
-  VertexShares<B> shares;  ///< in which the elements' forces are left, linear or nodal
+  /// Rows in which elements, linear or nodal, leave their forces
+  VertexShares<B> shares;
 };
 
-/// What stays constant on one level. Kernels take the parts that they read: the whole is long to
+/// Constants of one level. Kernels take the parts that they read, because the whole takes long to
 /// copy.
 template <class B>
 struct Model : VertexModel<B> {
   int vertices = 0;
   int tets = 0;
-  Patches<B> patches;  ///< of linear elements; also where nodal ones of an implicit level are
-                       ///< preconditioned by linear ones
-  NodalRows<B> rows;   ///< of nodal elements
-  /// the same for a preconditioner, no pressures smoothed
+  /// Patches of linear elements; also where nodal ones of an implicit level are preconditioned by
+  /// linear ones
+  Patches<B> patches;
+  NodalRows<B> rows;  ///< rows of nodal elements
+  /// Rows of nodal elements for a preconditioner, in float; no pressures are smoothed
   NodalRows<Backend<float, typename B::Exec>> float_rows;
 };
 
@@ -50,7 +53,7 @@ struct State {
       : u(zeros<Vectors<B>>("plica::" + name + ".u", vertices)),
         v(zeros<Vectors<B>>("plica::" + name + ".v", vertices)) {}
 
-  /// Takes the other's values, in the order of `exec`.
+  /// Copies the values of another state, in the order of `exec`.
   void copy(const typename B::Exec& exec, const State& from) const {
     plica::copy(exec, u, from.u);
     plica::copy(exec, v, from.v);

@@ -4,24 +4,27 @@
 
 namespace plica {
 
-/// The elements `nodal` of one mesh: constants of the mesh at rest, by rows of domains. A domain is
-/// what one region has around one vertex, a quarter of each of its tetrahedra there; a vertex
-/// between regions has several. Neighbours are domains of one region that share a tetrahedron. With
-/// V_t a tetrahedron's volume and N_b its shape functions, sums over the tetrahedra t of the pair:
+/// Nodal elements of one mesh (elements `nodal`): constants of the mesh at rest, by rows of
+/// domains. A domain is what one region has around one vertex: a quarter of each of its tetrahedra
+/// there. A vertex between regions has several domains. Neighbours are domains of one region that
+/// share a tetrahedron. With V_t a tetrahedron's volume and N_b its shape functions, these are sums
+/// over the tetrahedra t of the pair:
 ///
-///   C_ab = sum V_t/4 grad N_b     w_ab = sum V_t grad N_a . grad N_b     s_ab = sum V_t/16     V_a = sum V_t/4
+///   C_ab = sum V_t/4 grad N_b     w_ab = sum V_t grad N_a . grad N_b
+///   s_ab = sum V_t/16             V_a  = sum V_t/4
 ///
-/// Those of a domain with itself follow from the rest: over b, C_ab and w_ab add up to 0, s_ab to
-/// V_a. C_ba = -C_ab, unless both lie on the surface of the region: C_ab + C_ba = S_ab is kept for
-/// these pairs.
+/// The sums of a domain with itself follow from the others. Over b, C_ab and w_ab add up to 0, s_ab
+/// to V_a. C_ba = -C_ab, unless both lie on the surface of the region. For these pairs C_ab + C_ba
+/// = S_ab is stored.
 ///
-/// Rows are stored in slices of `height` beside each other (sliced ELLPACK, Monakov, Lokhmotov &
-/// Avetisyan 2010), a lane of a register or a thread each. A slice has the rows of one region only;
-/// what fills it up has volume 0 and points to itself.
+/// Rows are stored in slices of `height` side by side (sliced ELLPACK, Monakov, Lokhmotov &
+/// Avetisyan 2010). Each row has a lane of a register, or a thread. A slice has the rows of one
+/// region only. Rows that fill it up have volume 0 and point to themselves.
 ///
 /// * slice q: entries [first(q), first(q+1)) of neighbour, gradient (C_ab, row a), coupling (w_ab),
-/// smoothing (s_ab);
-///   surface entries [first_surface(q), first_surface(q+1)) of surface_neighbour, surface_gradient (S_ab)
+///   smoothing (s_ab);
+///   surface entries [first_surface(q), first_surface(q+1)) of surface_neighbour,
+///   surface_gradient (S_ab)
 /// * slot = slice * height + row of the slice: vertex, volume, inverse_volume
 template <class B>
 struct NodalRows {
@@ -39,37 +42,40 @@ struct NodalRows {
   Indices<B> vertex;  ///< [slots] -1: none
   Scalars<B> volume;  ///< [slots] V_a [m^3]
   Scalars<B> inverse_volume;
-  Array<int* [height]> neighbour;  ///< slots
+  Array<int* [height]> neighbour;  ///< slots of the neighbours
   Array<Real* [3][height]> gradient;
   Array<Real* [height]> coupling;
-  Array<Real* [height]> smoothing;  ///< only where pressures are smoothed
+  Array<Real* [height]> smoothing;  ///< s_ab, only where pressures are smoothed
   Indices<B> first_surface;
   Array<int* [height]> surface_neighbour;
   Array<Real* [3][height]> surface_gradient;
-  Scalars<B> constants;  ///< [regions * n] of the material
+  Scalars<B> constants;  ///< [regions * n] constants of the material
   /// [slots * 6] axis and sheet of each domain, instead of its region's; empty: none
   Scalars<B> fibres;
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
-  /// [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
+  /// [regions] part of lambda that acts on smoothed volumes [Pa]; empty: none
   Scalars<B> excess;
-  Scalars<B> damping;  ///< [regions] by stiffness [s]; empty: none anywhere
+  Scalars<B> damping;  ///< [regions] damping by stiffness [s]; empty: none
   VertexShares<B> shares;
 
   int slots() const { return slices * height; }
 };
 
-/// What the kernels of nodal elements pass on to each other; rows of slots.
+/// Numbers that the kernels of nodal elements pass on to each other, by slots.
 template <class B>
 struct NodalWork {
   Scalars<B> near;  ///< [slots * 8] up to two fields in the order of the slots, x y z 0 each
-  /// [slots * 12] of each column j of the stress Q_0j Q_1j Q_2j, and component j of the field
+  /// [slots * 12] for each column j of the stress: Q_0j Q_1j Q_2j, and component j of the field
   Scalars<B> records;
   /// [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
   Scalars<B> ratio;
-  Scalars<B> pressure;  ///< likewise, what follows from them
-  /// [slots * 9] G of the state that tangents are about, see packed(); empty: not kept
+  /// [slots * 2] smoothed pressures and their changes; empty: pressures are not smoothed. Mixed
+  /// pressures follow where there are any, see carried_pressures()
+  Scalars<B> pressure;
+  /// [slots * 9] G of the state that tangents are about, see packed(); empty: not stored
   Scalars<B> gradient;
-  Scalars<B> tangent;  ///< [slots * 45] projected tangents there, likewise; empty: none yet
+  /// [slots * 45] projected tangents at that state, see packed(); empty: none yet
+  Scalars<B> tangent;
 };
 
 }  // namespace plica

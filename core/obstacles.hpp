@@ -13,46 +13,52 @@ namespace plica {
 /// The options of a shape: one of the structs of kernels/contact/shapes/, such as SphereOptions.
 using ShapeOptions = std::any;
 
-/// The spring and damper between a tool with mass and where its motion asks it to be.
+/// Spring and damper between a tool with mass and the pose that its motion asks for.
 struct CouplingOptions {
   double stiffness = 0;                ///< [N/m]
   std::optional<double> damping = {};  ///< [N s/m]; none: critical, 2 sqrt(stiffness mass)
-  /// of one that turns, to the attitude of its turn [N m/rad]
+  /// Stiffness of the spring to the attitude that the turn asks for [N m/rad]
   double angular_stiffness = 0;
-  /// [N m s/rad]; none: critical for the largest moment of inertia
+  /// Damping of the rotation [N m s/rad]; none: critical for the largest moment of inertia
   std::optional<double> angular_damping = {};
 };
 
-/// When an obstacle takes hold of the surface points near it, and lets them go.
+/// Grasp of the surface points near an obstacle: when it closes and opens, and its springs.
 struct GraspOptions {
-  std::vector<double> from = {};  ///< it closes [s]; empty: where a program says so
-  /// it opens, after each of these [s]; may lack the last: it stays closed
+  /// Times at which it closes [s]; empty: when a program says so
+  std::vector<double> from = {};
+  /// Times at which it opens, each after the same entry of `from` [s]. The last may be left out: it
+  /// then stays closed
   std::vector<double> until = {};
-  /// largest distance outside the obstacle at which a point is grasped [m]
+  /// Largest distance outside the obstacle at which a point is grasped [m]
   double reach = 0;
-  /// of the spring of each point [N/m]; none: as contact has it
+  /// Stiffness of the spring of each point [N/m]; none: that of contact
   std::optional<double> stiffness = {};
-  /// force at which the spring of a point tears [N]; none: it never does
+  /// Force at which the spring of a point tears [N]; none: it never does
   std::optional<double> strength = {};
-  std::optional<Selection> where = {};  ///< of the points near it, by where they start; none: all
+  /// Points near it that may be grasped, by where they start; none: all
+  std::optional<Selection> where = {};
 };
 
-/// A shape, how rough it is and how it moves.
+/// A rigid obstacle: its shape, friction and motion.
 struct ObstacleOptions {
-  ShapeOptions shape;              ///< at t = 0
+  ShapeOptions shape;              ///< shape at t = 0
   std::optional<double> friction;  ///< Coulomb's coefficient; none: frictionless
-  Motion motion;                   ///< from where the shape says
-  /// what results call it; empty: obstacle_0, obstacle_1, ... in order
+  Motion motion;                   ///< motion from the pose of the shape
+  /// Name in results; empty: obstacle_0, obstacle_1, ... in order
   std::string name = {};
-  std::optional<double> mass = {};  ///< [kg]; none: it is where its motion says
-  /// Of one with mass, about its centre of mass at t = 0 [kg m^2]: xx yy zz, or xx yy zz xy xz yz;
-  /// empty: it does not turn.
+  std::optional<double> mass = {};  ///< [kg]; none: its motion gives its pose
+  /// Moments of inertia about the centre of mass at t = 0 [kg m^2]. They are xx yy zz, or xx yy zz
+  /// xy xz yz. The obstacle must have mass. Empty: it does not turn
   std::vector<double> inertia = {};
-  std::optional<Point> centre_of_mass = {};  ///< at t = 0 [m]; none: the shape's origin
-  CouplingOptions coupling = {};             ///< of one with mass
-  std::optional<GraspOptions> grasp = {};    ///< none: it cannot hold anything
-  std::optional<Turn> turn = {};  ///< besides its motion; none: it translates; of one with inertia
-                                  ///< what its coupling pulls to
+  /// Position at t = 0 [m]; none: the shape's origin
+  std::optional<Point> centre_of_mass = {};
+  /// Coupling of an obstacle with mass to its motion
+  CouplingOptions coupling = {};
+  std::optional<GraspOptions> grasp = {};  ///< none: it grasps nothing
+  /// Rotation beside the motion; none: it translates. For an obstacle with inertia, its coupling
+  /// pulls it to this rotation
+  std::optional<Turn> turn = {};
 };
 
 }  // namespace plica

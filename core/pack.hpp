@@ -2,10 +2,10 @@
 #pragma once
 #include <Kokkos_Core.hpp>
 
-// A few values that one instruction handles together. Pointwise physics is written once on a type T
-// that is either a plain number (GPUs, tests) or a Pack of numbers (CPUs). The compiler's own
-// vector extension is used where there is one: it keeps packs in registers, which a struct with an
-// array and loops does not.
+// A few values that one instruction handles together. Pointwise physics is written once, on a type
+// T. T is a plain number (GPUs, tests) or a Pack of numbers (CPUs). The compiler's own vector
+// extension is used where there is one: it keeps packs in registers, which a struct with an array
+// and loops does not.
 namespace plica {
 
 template <class T, int N>
@@ -57,7 +57,7 @@ struct Pack {
   KOKKOS_INLINE_FUNCTION Pack& operator-=(const Pack& b) { return *this = *this - b; }
   KOKKOS_INLINE_FUNCTION Pack& operator*=(const Pack& b) { return *this = *this * b; }
 
-  /// f of each lane
+  /// Returns f of each lane.
   template <class F>
   static KOKKOS_INLINE_FUNCTION Pack map(const Pack& a, const F& f) {
     Pack r;
@@ -66,7 +66,7 @@ struct Pack {
   }
 };
 
-/// The number type of a plain number or a pack, and how many it holds.
+/// Number type of a plain number or a pack, and the number of its lanes.
 template <class T>
 struct LaneOf {
   using type = T;
@@ -88,7 +88,7 @@ struct PackOf<T, 1> {
   using type = T;
 };
 
-/// Lane i, of a pack or of a plain number.
+/// Returns lane i of a pack, or a plain number itself.
 template <class T>
 KOKKOS_INLINE_FUNCTION T lane(const T& a, int) {
   return a;
@@ -106,7 +106,7 @@ KOKKOS_INLINE_FUNCTION void set_lane(Pack<T, N>& a, int i, T value) {
   a.set(i, value);
 }
 
-/// As many numbers as it has lanes, which lie together; they may be of another precision.
+/// Loads as many numbers as T has lanes. They lie together and may be of another precision.
 template <class T, class Number>
 KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   constexpr int lanes = LaneOf<T>::count;
@@ -123,13 +123,14 @@ KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   return to;
 }
 
-/// The other way round.
+/// Stores the lanes of T together, as numbers that may be of another precision.
 template <class T, class Number>
 KOKKOS_INLINE_FUNCTION void store_lanes(const T& from, Number* to) {
   for (int l = 0; l < LaneOf<T>::count; ++l) to[l] = static_cast<Number>(lane(from, l));
 }
 
-/// Number k of `count` at a slot: the same numbers of a pack's elements stand side by side.
+/// Returns the index of number k of `count` at a slot. Numbers k of a pack's elements stand side by
+/// side.
 template <class B>
 KOKKOS_INLINE_FUNCTION int packed(int slot, int k, int count) {
   return (slot / B::lanes * count + k) * B::lanes + slot % B::lanes;

@@ -2,24 +2,25 @@
 #pragma once
 #include <plica/core/small.hpp>
 
-// A Motion as the device holds it, always double: a time of many steps and a displacement from it
-// keep their digits.
+// A Motion in the form of the device, always double. A time after many steps, and a displacement
+// from it, keep their digits.
 namespace plica {
 
+/// A displacement at a time.
 struct PathKnot {
   double time = 0;  ///< [s]
   Vec3<double> displacement;
 };
 
-/// The sum of a constant velocity, a sine and a polygon; what a motion does not have is 0.
+/// Sum of a constant velocity, a sine and a polygon. Parts that a motion does not have are 0.
 struct Path {
   Vec3<double> velocity;          ///< [m/s]
   Vec3<double> amplitude;         ///< [m]
   double rate = 0, phase = 0;     ///< [rad/s], [rad]
-  int first_knot = 0, knots = 0;  ///< among those of all paths
+  int first_knot = 0, knots = 0;  ///< place among the knots of all paths
 };
 
-/// Where it has got to.
+/// Displacement and velocity of a path at one time.
 struct PathPoint {
   Vec3<double> displacement;  ///< [m]
   Vec3<double> velocity;      ///< [m/s]

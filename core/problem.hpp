@@ -8,98 +8,105 @@
 #include <string>
 #include <vector>
 
-/// What is to be simulated, in SI and without files: the library's whole input. Every struct is
-/// plain; a default is the value a scene gets that leaves the key out. Ranges and names are in
+/// Description of a simulation, in SI and without files: the library's whole input. Every struct is
+/// plain. A default is the value in a scene that leaves the key out. Ranges and names are in
 /// describe.hpp; they are checked where the simulation is set up. Large structs have their copies
 /// in problem.cpp: each takes the compiler seconds.
 namespace plica {
 
-/// Directions round a line: of circles about it, turned by an angle towards it. Their sheets are
-/// the cylinders about it.
+/// Directions round a line: tangents of circles about it, turned by an angle towards it. The sheets
+/// of these fibres are the cylinders about the line.
 struct FibreWinding {
-  Point point = Point::Zero();  ///< on the line [m]
-  Point axis = Point::UnitZ();  ///< along it; its length does not matter
-  double angle = 0;             ///< of the helix: 0 round the line, a right angle along it [rad]
+  Point point = Point::Zero();  ///< point on the line [m]
+  Point axis = Point::UnitZ();  ///< direction of the line; its length does not matter
+  /// Angle of the helix: 0 round the line, a right angle along it [rad]
+  double angle = 0;
 };
 
-/// The directions of a body's fibres at rest: the same everywhere, by a rule, or of each element.
+/// Directions of a body's fibres at rest: the same everywhere, by a rule, or of each element.
 struct FibreOptions {
-  Point axis = Point::UnitX();  ///< along them; its length does not matter
-  /// across them, in the plane of their sheets or families
+  Point axis = Point::UnitX();  ///< direction of the fibres; its length does not matter
+  /// Direction across the fibres, in the plane of their sheets or families
   std::optional<Point> sheet = {};
-  std::optional<FibreWinding> around = {};  ///< instead of `axis` and `sheet`
-  /// instead of `axis`: from these vertices of level 0 the shortest way ...
+  std::optional<FibreWinding> around = {};  ///< winding instead of `axis` and `sheet`
+  /// Vertices of level 0 that the fibres run from, instead of `axis`. They run as heat would flow
+  /// to those of `to`, see flow_directions()
   std::optional<Selection> from = {};
-  std::optional<Selection> to = {};  ///< ... to these: see flow_directions()
-  /// instead of `axis`: the vectors of this name in TetMesh::tet_vectors
+  std::optional<Selection> to = {};  ///< vertices of level 0 that the fibres run to
+  /// Name of vectors in TetMesh::tet_vectors, instead of `axis`
   std::string field = {};
-  std::string sheet_field = {};  ///< instead of `sheet`, likewise
+  /// Name of vectors in TetMesh::tet_vectors, instead of `sheet`
+  std::string sheet_field = {};
 };
 
-/// A part of the stress of shape that relaxes: of a step of strain, alpha e^(-t/tau) of it is left
-/// after a time t.
+/// A part of the stress of shape that relaxes. A step of strain makes it alpha times the stress at
+/// once; after a time t, e^(-t/tau) of it is left.
 struct PronyTerm {
   double alpha = 0;  ///< part of the stress at once
   double tau = 0;    ///< [s]
 };
 
-/// One of the sum that Ogden's law is.
+/// A term of the sum in Ogden's law.
 struct OgdenTerm {
   double mu = 0;     ///< [Pa]
   double alpha = 0;  ///< exponent, not 0
 };
 
-/// What a body is made of.
+/// Material of a body.
 struct MaterialOptions {
-  std::string model = "st_venant_kirchhoff";  ///< of materials()
+  std::string model = "st_venant_kirchhoff";  ///< one of materials()
   double young_modulus = 20e3;                ///< [Pa]
   double poisson_ratio = 0.4;                 ///< lateral contraction
   double density = 1000;                      ///< [kg/m^3]
-  /// whether elements may turn inside out; none: as the material has it
+  /// True where elements may turn inside out; none: as the material has it
   std::optional<bool> allow_inversion = {};
-  /// what else this material declares, by name, in SI
+  /// Further values that the material declares, by name, in SI
   std::map<std::string, double> parameters = {};
-  /// of volumes(): U(J) of laws of tissue; none: simo_hughes
+  /// Energy U(J) of laws of tissue, one of volumes(); none: simo_hughes
   std::optional<std::string> volume = {};
-  std::optional<std::string> convention = {};  ///< of ogden_conventions(), for mu in `terms`
-  std::vector<OgdenTerm> terms = {};           ///< of Ogden's law, 1 to 6
-  std::vector<PronyTerm> prony = {};           ///< relaxation; none: the material is elastic
-  /// of laws with fibres; a scene has it as body.fibres
+  /// Convention for mu in `terms`, one of ogden_conventions()
+  std::optional<std::string> convention = {};
+  std::vector<OgdenTerm> terms = {};  ///< terms of Ogden's law, 1 to 6
+  std::vector<PronyTerm> prony = {};  ///< relaxation; none: the material is elastic
+  /// Fibres of laws that have them; a scene has them as body.fibres
   std::optional<FibreOptions> fibres = {};
-  /// whose values these were, see tissue_material()
+  /// Tissue that these values came from, see tissue_material()
   std::string tissue = {};
 };
 
-/// What of DampingOptions a region has of its own.
+/// Values of DampingOptions that a region has instead of the body's.
 struct RegionDamping {
   std::optional<double> mass;       ///< [1/s]
   std::optional<double> stiffness;  ///< [s]
 };
 
-/// What a region has of its own; the rest is the body's.
+/// Options that a region has of its own; the rest is the body's.
 struct RegionOptions {
-  /// its elements; none: those of the mesh's region of that name
+  /// Elements of the region; none: those of the mesh's region of that name
   std::optional<Selection> where;
-  std::optional<double> young_modulus;            ///< [Pa]
-  std::optional<double> poisson_ratio;            ///< lateral contraction
-  std::optional<double> density;                  ///< [kg/m^3]
-  RegionDamping damping;                          ///< likewise
-  std::map<std::string, double> parameters = {};  ///< of the material, likewise
-  std::vector<OgdenTerm> terms = {};              ///< instead of the body's, where there are any
-  std::vector<PronyTerm> prony = {};              ///< likewise
-  std::optional<FibreOptions> fibres = {};        ///< instead of the body's
+  std::optional<double> young_modulus;  ///< [Pa]
+  std::optional<double> poisson_ratio;  ///< lateral contraction
+  std::optional<double> density;        ///< [kg/m^3]
+  RegionDamping damping;                ///< damping instead of the body's
+  /// Values of the material, by name, instead of the body's
+  std::map<std::string, double> parameters = {};
+  /// Ogden's terms instead of the body's, where there are any
+  std::vector<OgdenTerm> terms = {};
+  std::vector<PronyTerm> prony = {};  ///< relaxation instead of the body's, where there is any
+  std::optional<FibreOptions> fibres = {};  ///< fibres instead of the body's
 };
 
 /// Vertices whose motion is given.
 struct PrescribedMotion {
-  Selection where;  ///< which
-  Motion motion;    ///< from where they are at rest
+  Selection where;  ///< chosen vertices
+  Motion motion;    ///< motion from where they are at rest
 };
 
-/// Damping by mass, with forces -mass M v, and by stiffness, with a stress against the rate of
-/// strain: that of the material at rest, times `stiffness`, see kernels/elastic/damping_stress.hpp.
-/// The second acts on no motion of the whole body. Together they are Rayleigh's damping near rest:
-/// there a mode of frequency w [rad/s] decays like exp(-(mass + stiffness w^2) t / 2).
+/// Damping by mass and damping by stiffness. The first has forces -mass M v. The second has a
+/// stress against the rate of strain: that of the material at rest, times `stiffness`, see
+/// kernels/elastic/damping_stress.hpp. The second acts on no motion of the whole body. Together
+/// they are Rayleigh's damping near rest: there a mode of frequency w [rad/s] decays like
+/// exp(-(mass + stiffness w^2) t / 2).
 struct DampingOptions {
   double mass = 0;       ///< [1/s]
   double stiffness = 0;  ///< [s]
@@ -107,24 +114,25 @@ struct DampingOptions {
 
 /// Initial velocity of a part of the body, chosen on level 0.
 struct PartVelocity {
-  Selection where;                         ///< its vertices
-  Point velocity = Point::Zero();          ///< [m/s]
-  Point angular_velocity = Point::Zero();  ///< about the centre of their bounding box [rad/s]
+  Selection where;                 ///< vertices of the part
+  Point velocity = Point::Zero();  ///< [m/s]
+  /// Angular velocity about the centre of their bounding box [rad/s]
+  Point angular_velocity = Point::Zero();
 };
 
-/// Initial rotation about the line between two points of the mesh at rest, before it is placed:
-/// none in the plane through the first across the line, growing linearly along it.
+/// Initial rotation about the line between two points of the mesh at rest, before it is placed. It
+/// is zero in the plane through `from` across the line and grows linearly along the line.
 struct TwistOptions {
-  Point from = Point::Zero();  ///< [m]
-  Point to = Point::UnitX();   ///< another one [m]
-  /// at the second; seen from there, counter-clockwise where positive [rad/s]
+  Point from = Point::Zero();  ///< point on the line [m]
+  Point to = Point::UnitX();   ///< another point on the line [m]
+  /// Angular velocity at `to`; seen from there, counter-clockwise where positive [rad/s]
   double angular_velocity = 0;
 };
 
-/// The state at t = 0: placed and moving, at rest in shape where nothing deforms it. Velocities add
-/// up. Vertices that are fixed or whose motion is given are where they would be anyway.
+/// State at t = 0: placed and moving, at rest in shape where nothing deforms it. Velocities add up.
+/// Vertices that are fixed, or whose motion is given, keep their own places and velocities.
 struct InitialOptions {
-  /// Compiled in problem.cpp alone.
+  /// Constructors and copies, compiled in problem.cpp alone.
   /// @{
   InitialOptions();
   InitialOptions(const InitialOptions&);
@@ -134,32 +142,38 @@ struct InitialOptions {
   ~InitialOptions();
   /// @}
 
-  /// where the centre of level 0's bounding box starts; none: where the mesh is [m]
+  /// Position of the centre of level 0's bounding box; none: where the mesh is [m]
   std::optional<Point> position;
-  Point velocity = Point::Zero();          ///< of every free vertex [m/s]
-  Point angular_velocity = Point::Zero();  ///< about that centre [rad/s]
-  std::optional<TwistOptions> twist;       ///< a rotation that grows along an axis
-  std::vector<PartVelocity> parts;         ///< velocities of parts of the body
-  /// along x, y, z about that centre: 0 flattens, a negative one turns inside out
+  Point velocity = Point::Zero();  ///< velocity of every free vertex [m/s]
+  /// Angular velocity about the centre of the bounding box [rad/s]
+  Point angular_velocity = Point::Zero();
+  std::optional<TwistOptions> twist;  ///< a rotation that grows along an axis
+  std::vector<PartVelocity> parts;    ///< velocities of parts of the body
+  /// Stretch along x, y, z about the centre of the bounding box: 0 flattens, a negative one turns
+  /// inside out
   Point stretch = Point::Ones();
-  std::optional<int> random;  ///< seed: each vertex anywhere in level 0's bounding box instead
+  /// Seed: each vertex starts anywhere in level 0's bounding box instead
+  std::optional<int> random;
 };
 
-inline constexpr int fewest_points = 30;  ///< of a coarse space
+inline constexpr int fewest_points = 30;  ///< minimum number of points of a coarse space
 
-/// One of several bodies that are stepped as one: the elements whose region has its name, or begins
-/// with that and a slash. See join_bodies().
+/// One of several bodies that are stepped as one. It has the elements whose region has its name, or
+/// begins with its name and a slash. See join_bodies().
 struct BodyPart {
-  std::string name;          ///< not empty
-  MaterialOptions material;  ///< where its regions have no other: contact is as stiff as that
-  /// of its surface; the body's surface has those of all parts, in their order
+  std::string name;  ///< not empty
+  /// Material where its regions have no other; contact is as stiff as this material
+  MaterialOptions material;
+  /// Number of points of its surface. The body's surface has the points of all parts, in their
+  /// order
   int points = 0;
-  std::optional<std::vector<int>> coarsen = {};  ///< its own numbers, see Body::coarsen
+  /// Sizes of its own coarse spaces, see Body::coarsen
+  std::optional<std::vector<int>> coarsen = {};
 };
 
 /// A deformable body.
 struct Body {
-  /// Compiled in problem.cpp alone.
+  /// Constructors and copies, compiled in problem.cpp alone.
   /// @{
   Body();
   Body(const Body&);
@@ -170,74 +184,72 @@ struct Body {
   /// @}
 
   std::vector<TetMesh> levels;  ///< finest first, at least one
-  /// Coarse spaces of the last mesh, for methods that need coarse levels but no coarse elements
-  /// (him, multigrid): their numbers of points, finest first; empty: as many as it takes. None:
-  /// likewise, where a method needs them.
+  /// Numbers of points of coarse spaces that are made of the last mesh, finest first. They are for
+  /// methods that need coarse levels but no coarse elements (him, multigrid). Empty: as many as it
+  /// takes. None: as many as it takes, where a method needs them
   std::optional<std::vector<int>> coarsen = {};
-  /// of elements(): one for all levels, or one each, finest first
+  /// Kinds of elements, from elements(): one for all levels, or one each, finest first
   std::vector<std::string> element = {"auto"};
   double stabilisation = 0.4;                    ///< beta of nodal elements
-  std::string pressure = "auto";                 ///< of pressures(), of nodal elements
-  MaterialOptions material;                      ///< everywhere but where a region has its own
-  std::map<std::string, RegionOptions> regions;  ///< by name
+  std::string pressure = "auto";                 ///< pressure of nodal elements, one of pressures()
+  MaterialOptions material;                      ///< material where a region has no other
+  std::map<std::string, RegionOptions> regions;  ///< regions by name
   std::vector<Selection> fixed;                  ///< vertices that stay where they are
   std::vector<PrescribedMotion> prescribed;      ///< vertices whose motion is given
   std::vector<LoadOptions> loads;                ///< forces from outside
-  DampingOptions damping;                        ///< of the whole body
+  DampingOptions damping;                        ///< damping of the whole body
   InitialOptions initial;                        ///< state at t = 0
-  /// embedded in every level; contact acts on its vertices
+  /// Surface that is embedded in every level; contact acts on its vertices
   std::optional<TriangleSurface> surface;
-  std::vector<BodyPart> parts = {};  ///< where it is several bodies; empty: one
+  std::vector<BodyPart> parts = {};  ///< bodies, where there are several; empty: one
 };
 
-/// Whether any of it is damped in proportion to its mass.
+/// Returns true where a part of the body is damped in proportion to its mass.
 bool damps_by_mass(const Body& body);
-/// Whether any of it is damped in proportion to its stiffness.
+/// Returns true where a part of the body is damped in proportion to its stiffness.
 bool damps_by_stiffness(const Body& body);
 
-/// How the linear systems of an implicit level are solved.
+/// Options by which an implicit level is solved.
 struct ImplicitOptions {
-  std::string solver = "auto";          ///< of linear_solver_choices()
-  std::string preconditioner = "auto";  ///< of preconditioner_choices()
-  std::string matrix = "auto";          ///< of matrix_choices()
-  /// of chebyshev, and of what smooths before and after in multigrid
+  std::string solver = "auto";          ///< one of linear_solver_choices()
+  std::string preconditioner = "auto";  ///< one of preconditioner_choices()
+  std::string matrix = "auto";          ///< one of matrix_choices()
+  /// Degree of chebyshev, and of what smooths before and after in multigrid
   int polynomial_degree = 3;
   double relative_residual = 1e-6;  ///< |r|/|b| at which the conjugate gradients end
-  int iterations = 0;               ///< above 0: exactly so many iterations instead
-  /// a solve that has not converged by then is counted as a miss
+  int iterations = 0;               ///< above 0: exactly so many iterations per solve
+  /// Maximum number of iterations; a solve that has not converged by then is counted as a miss
   int max_iterations = 2000;
-  /// at most, per stage; 1: linearly implicit; 0: auto, see newton_iterations()
+  /// Maximum number of iterations per stage; 1: linearly implicit; 0: auto, see newton_iterations()
   int newton_iterations = 0;
-  /// part of the forces that may be unbalanced; none: see StageSolver
+  /// Part of the forces that may be unbalanced; none: see StageSolver
   std::optional<double> newton_tolerance = {};
-  double newton_residual = 0;    ///< or below this [N]
-  std::string tangent = "auto";  ///< of tangents()
-  /// Of generalized_alpha: what is left of the fastest modes after a step; none: see
-  /// rho_infinity().
+  double newton_residual = 0;    ///< residual that is small enough in any case [N]
+  std::string tangent = "auto";  ///< one of tangents()
+  /// Part of the fastest modes that generalized_alpha leaves after a step; none: see rho_infinity()
   std::optional<double> rho_infinity = {};
 };
 
-/// Of the cycle `him`.
+/// Options of the cycle `him`.
 struct HimOptions {
   double sigma = 0.8;  ///< part of the stability limit that steps use at rest
-  /// of slowed motion, per step; none: 1e-4 where the body turns
+  /// Dissipation of slowed motion, per step; none: 1e-4 where the body turns
   std::optional<double> dissipation;
-  bool smoothing = true;  ///< of its transfers
+  bool smoothing = true;  ///< whether its transfers are smoothed
 };
 
-/// What becomes of a macro step that does not pass its checks, or that Newton's method does not
-/// solve.
+/// Outcome of a macro step that does not pass its checks, or that Newton's method does not solve.
 struct FailureOptions {
-  static constexpr int automatic = -1;  ///< left to most_halvings()
-  /// at most, of a macro step; 0: none, and nothing is repaired
+  static constexpr int automatic = -1;  ///< value that leaves it to most_halvings()
+  /// Maximum number of halvings of a macro step; 0: none, and nothing is repaired
   int halvings = automatic;
-  /// of unsolved_outcomes(): of the shortest part that is not solved
+  /// Outcome of the shortest part that is not solved, one of unsolved_outcomes()
   std::string unsolved = "accept";
 };
 
-/// How a body is stepped in time.
+/// Integration of a body in time.
 struct IntegrationOptions {
-  /// Compiled in problem.cpp alone.
+  /// Constructors and copies, compiled in problem.cpp alone.
   /// @{
   IntegrationOptions();
   IntegrationOptions(const IntegrationOptions&);
@@ -247,52 +259,54 @@ struct IntegrationOptions {
   ~IntegrationOptions();
   /// @}
 
-  std::string cycle = "single";           ///< of cycle_choices()
-  std::string error_class = "balanced";   ///< of cycle auto, of error_classes()
+  std::string cycle = "single";           ///< one of cycle_choices()
+  std::string error_class = "balanced";   ///< class of cycle auto, one of error_classes()
   std::optional<double> macro_step;       ///< [s]; none: 0.9 of the predicted limit
-  std::string distribution = "critical";  ///< of distributions()
-  /// of the macro step, finest first, with `custom`; their sum is 1 to 1e-12
+  std::string distribution = "critical";  ///< one of distributions()
+  /// Shares of the macro step with `custom`, finest first; their sum is 1 to 1e-12
   std::vector<double> shares;
-  /// this part of every finer level's share goes to the coarsest
+  /// Part of every finer level's share that goes to the coarsest
   double shift_to_coarsest = 0;
-  /// one for all levels, or one each, finest first
+  /// Integrators: one for all levels, or one each, finest first
   std::vector<std::string> integrator = {"symplectic_euler"};
-  /// likewise; 0: as many as the level's limit asks for
+  /// Numbers of sub-steps: one for all levels, or one each; 0: as many as the level's limit asks
+  /// for
   std::vector<int> substeps = {0};
-  /// of the limit that automatic sub-steps keep
+  /// Part of the limit that automatic sub-steps keep
   double safety = 0.9;
-  /// run explicit sub-steps above the limit all the same
-  bool allow_unstable = false;
+  bool allow_unstable = false;    ///< whether explicit sub-steps may exceed the limit
   double switch_threshold = 0.1;  ///< epsilon of the switched mappings
-  /// of outside_rules(): vertices outside the other mesh
+  /// Rule for vertices outside the other mesh, one of outside_rules()
   std::string outside = "clamp";
-  /// of relaxation_rules(): how Prony series go on
+  /// Rule for how Prony series go on, one of relaxation_rules()
   std::string relaxation = "exponential";
-  ImplicitOptions implicit;   ///< of implicit levels
-  HimOptions him;             ///< of the hierarchical inverse mass
-  FailureOptions on_failure;  ///< of a bad macro step
+  ImplicitOptions implicit;   ///< solution of implicit levels
+  HimOptions him;             ///< options of the hierarchical inverse mass
+  FailureOptions on_failure;  ///< outcome of a bad macro step
 };
 
-/// Points of one of several bodies, held by springs without length to the places on another one's
-/// surface that they start nearest to.
+/// Attachment of points of one body to another one's surface. Springs without length hold each
+/// point at the place on that surface that is nearest at the start.
 struct AttachmentOptions {
-  std::string body;  ///< whose points are attached
+  std::string body;  ///< body whose points are attached
   std::string to;    ///< the body that they are attached to
-  /// of the body's surface points where they start; none: all of them
+  /// Points of the body's surface that are attached, by where they start; none: all of them
   std::optional<Selection> where = {};
-  /// how far from the other's surface a point may be that is attached [m]
+  /// Maximum distance of an attached point from the other's surface [m]
   double reach = 0;
-  std::optional<double> stiffness = {};  ///< of each point's spring [N/m]; none: as contact has it
-  /// force at which a point's spring tears [N]; none: it never does
+  /// Stiffness of each point's spring [N/m]; none: that of contact
+  std::optional<double> stiffness = {};
+  /// Force at which a point's spring tears [N]; none: it never does
   std::optional<double> strength = {};
 };
 
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's
-/// triangles, see cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k =
-/// 64 E A / h (of two bodies both layers in series) and the damping 2 * 0.5 * sqrt(k rho A h), with
-/// A the surface's area per point and h the finest level's mean edge.
+/// triangles. See cmake/docs/contact.md. For each surface point, the scales multiply the stiffness
+/// k = 64 E A / h and the damping 2 * 0.5 * sqrt(k rho A h). A is the surface's area per point and
+/// h the finest level's mean edge. Between two bodies, the stiffness is that of both layers in
+/// series.
 struct ContactOptions {
-  /// Compiled in problem.cpp alone.
+  /// Constructors and copies, compiled in problem.cpp alone.
   /// @{
   ContactOptions();
   ContactOptions(const ContactOptions&);
@@ -302,26 +316,27 @@ struct ContactOptions {
   ~ContactOptions();
   /// @}
 
-  std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
-  /// where there are several, they touch each other
-  bool bodies = true;
-  bool self = false;                                ///< a body's surface touches itself
-  std::vector<AttachmentOptions> attachments = {};  ///< of bodies to each other
-  std::optional<double> friction = {};              ///< of these two; none: frictionless
-  std::string whole_surface = "auto";               ///< of whole_surface_rules()
-  double stiffness_scale = 1;                       ///< of the penalty
-  double damping_scale = 1;                         ///< of the approach
-  /// of the spring by which friction sticks, over the penalty's
+  std::vector<ObstacleOptions> obstacles;           ///< obstacles that the surface can touch
+  bool bodies = true;                               ///< whether several bodies touch each other
+  bool self = false;                                ///< whether a body's surface touches itself
+  std::vector<AttachmentOptions> attachments = {};  ///< attachments of bodies to each other
+  /// Coulomb's coefficient of bodies with each other and with themselves; none: frictionless
+  std::optional<double> friction = {};
+  std::string whole_surface = "auto";  ///< one of whole_surface_rules()
+  double stiffness_scale = 1;          ///< scale of the penalty stiffness
+  double damping_scale = 1;            ///< scale of the damping of the approach
+  /// Stiffness of the spring by which friction sticks, over the penalty's
   double friction_stiffness_scale = 1;
-  double tangential_damping_scale = 1;  ///< of the damper beside that spring
+  /// Scale of the damper beside the spring by which friction sticks
+  double tangential_damping_scale = 1;
 };
 
-/// What results call that obstacle.
+/// Returns the name of an obstacle in results.
 std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle);
 
 /// A body, what acts on it, and how it is integrated.
 struct Problem {
-  /// Compiled in problem.cpp alone.
+  /// Constructors and copies, compiled in problem.cpp alone.
   /// @{
   Problem();
   Problem(const Problem&);
@@ -331,28 +346,29 @@ struct Problem {
   ~Problem();
   /// @}
 
-  /// name of the preset that these options came from; see presets()
+  /// Name of the preset that these options came from; see presets()
   std::string preset = {};
-  Body body;                       ///< what moves
+  Body body;                       ///< body that moves
   Point gravity = Point::Zero();   ///< [m/s^2]
-  IntegrationOptions integration;  ///< in time
-  ContactOptions contact;          ///< with obstacles
-  /// the caller will put forces of its own on the surface: embed it in every level
+  IntegrationOptions integration;  ///< integration in time
+  ContactOptions contact;          ///< contact with obstacles and between bodies
+  /// True where the caller will put forces of its own on the surface; it is then embedded in every
+  /// level
   bool surface_forces = false;
 };
 
-/// Whether any of it relaxes.
+/// Returns true where a part of the body relaxes.
 bool is_viscous(const Body& body);
 
-/// Whether its surface acts on its surface: bodies touch or hold each other, or one of them touches
+/// Returns true where surface acts on surface: bodies touch or are attached, or one of them touches
 /// itself.
 bool has_pairs(const Problem& problem);
-/// Whether it touches anything.
+/// Returns true where the body touches anything: obstacles or surface.
 bool has_contact(const Problem& problem);
-/// What is left of it where nothing touches: no obstacles, no pairs, no surface.
+/// Removes all that touches from a problem: obstacles, pairs and the surface.
 void remove_contact(Problem& problem);
-/// Of what pushes it, in order: its obstacles, and where several bodies touch each other the
-/// bodies.
+/// Returns the names of what pushes the body, in order. These are its obstacles and, where several
+/// bodies touch each other, the bodies.
 std::vector<std::string> wrench_names(const Problem& problem);
 
 }  // namespace plica

@@ -5,140 +5,148 @@
 #include <string>
 #include <vector>
 
-/// What a simulation tells of itself: what it is made of, what was decided for each level,
-/// energies, forces, and why a run cannot go on.
+/// Reports of a simulation: its parts, the decisions for each level, energies, forces, and why a
+/// run cannot go on.
 namespace plica {
 
 /// A part that a scene may or may not need: in or out, why, and the device memory it takes.
 struct Part {
-  std::string name;       ///< as `plica explain` prints it
+  std::string name;       ///< name, as `plica explain` prints it
   bool in = false;        ///< whether the simulation has it
   std::string reason;     ///< why, or why not
-  std::size_t bytes = 0;  ///< on the device
+  std::size_t bytes = 0;  ///< size on the device
 };
 
 /// An element that by itself would limit explicit steps.
 struct StiffElement {
-  int element = -1;    ///< in the level's mesh
-  std::string region;  ///< its own; empty: nameless
-  /// its longest edge over its smallest height; of a regular tetrahedron 1.22
+  int element = -1;    ///< number in the level's mesh
+  std::string region;  ///< region of the element; empty: nameless
+  /// Longest edge over smallest height; 1.22 for a regular tetrahedron
   double height_ratio = 0;
-  double step = 0;  ///< 2/w of it alone [s]
+  double step = 0;  ///< critical step 2/w of the element alone [s]
 };
 
-/// What a level is.
+/// Kind of a level.
 enum class LevelKind {
   mesh,     ///< tetrahedra
   lattice,  ///< tetrahedra that the body fills in part
   space,    ///< motions of the finest mesh, without elements
-  slivers   ///< such a space, in which only the vertices of slivers follow others
+  slivers   ///< space in which only the vertices of slivers follow others
 };
 
-/// What was decided for one level.
+/// Decisions for one level.
 struct LevelReport {
-  LevelKind kind = LevelKind::mesh;  ///< what it is made of
-  int vertices = 0;                  ///< of its mesh; points of a coarse space
-  int tets = 0;                      ///< of its mesh; a coarse space has none
-  double filled = 1;                 ///< the body's part of its volume
-  /// of a coarse space: weights per row of its interpolation to the next finer level
+  LevelKind kind = LevelKind::mesh;  ///< kind of the level
+  int vertices = 0;                  ///< vertices of its mesh; points of a coarse space
+  int tets = 0;                      ///< tetrahedra of its mesh; a coarse space has none
+  double filled = 1;                 ///< part of its volume that is body
+  /// Weights per row of the interpolation to the next finer level, for a coarse space
   double nonzeros = 0;
   double mean_edge = 0;  ///< [m]
   double mass = 0;       ///< [kg]
-  double critical_step =
-      0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit:
-          ///< of symplectic_euler); 0 where it is not integrated [s]
-  /// lower bound of critical_step without damping, from the worst element [s]
+  /// Largest stable explicit step of its integrator [s]. Contact does not bound it. An implicit
+  /// level has that of symplectic_euler, a level that is not integrated 0
+  double critical_step = 0;
+  /// Lower bound of critical_step without damping, from the worst element [s]
   double element_bound = 0;
-  double typical_element = 0;          ///< the median of that over all elements [s]
-  std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
-  /// of the macro step; 0 where it is not integrated (coarser levels of cycle him)
+  double typical_element = 0;          ///< median of all elements' own critical steps [s]
+  std::vector<StiffElement> stiffest;  ///< ten worst elements, the worst first
+  /// Share of the macro step; 0 where it is not integrated (coarser levels of cycle him)
   double share = 0;
-  /// cycle him: how many times too heavy motion is that only this level represents
+  /// Factor by which motion is too heavy that only this level represents, in cycle him
   double inertia = 1;
-  double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself [s]
-  int substeps = 0;                 ///< in its share
-  std::string element;              ///< linear or nodal
-  std::string integrator;           ///< its name
-  std::string linear_solver;        ///< of an implicit integrator: solver, preconditioner, matrix
+  /// Largest stable step of that motion by itself, in cycle him [s]
+  double detail_step = 0;
+  int substeps = 0;        ///< sub-steps in its share
+  std::string element;     ///< linear or nodal
+  std::string integrator;  ///< name of its integrator
+  /// Solver, preconditioner and matrix of an implicit integrator
+  std::string linear_solver;
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
-  int outside_down = 0;             ///< its vertices outside the next finer mesh
-  int outside_up = 0;               ///< the next finer level's vertices outside its mesh
-  /// its vertices without one of the next finer level in their elements (cycle fas)
+  int outside_down = 0;             ///< vertices of its mesh outside the next finer mesh
+  int outside_up = 0;               ///< vertices of the next finer level outside its mesh
+  /// Vertices that have none of the next finer level in their elements (cycle fas)
   int massless = 0;
-  double largest_miss = 0;  ///< their largest distance over the local edge length
+  /// Largest distance of vertices outside the other mesh, over the local edge length
+  double largest_miss = 0;
 };
 
-/// How far the cycle `him` is from its limit at rest.
+/// Distance of the cycle `him` from its limit at rest.
 struct HimReport {
-  double product = 0;      ///< t^2 times the largest eigenvalue of A K; below 4 is stable
-  double bound = 0;        ///< of that, from each level's own eigenvalue: never less
+  double product = 0;  ///< t^2 times the largest eigenvalue of A K; below 4 is stable
+  /// Upper bound of the product, from each level's own eigenvalue
+  double bound = 0;
   int coarsest = 0;        ///< vertices of the coarsest level; of several bodies the fewest
-  bool all_modes = false;  ///< whether each of its modes has its own frequency
-  /// the automatic step before halvings that the fit needed; 0: the step was given [s]
+  bool all_modes = false;  ///< whether each mode of the coarsest level has its own frequency
+  /// Automatic step before the halvings that the fit needed [s]; 0: the step was given
   double usual_step = 0;
 };
 
 /// Energies of level 0.
 struct Energies {
-  double kinetic = 0;    ///< of motion [J]
-  double elastic = 0;    ///< of deformation [J]
-  double potential = 0;  ///< gravity's, zero at the start [J]
-  double contact = 0;    ///< of the penalties [J]
-  /// Their sum [J].
+  double kinetic = 0;    ///< energy of motion [J]
+  double elastic = 0;    ///< energy of deformation [J]
+  double potential = 0;  ///< energy of gravity, zero at the start [J]
+  double contact = 0;    ///< energy of the penalties [J]
+  /// Returns the sum of these energies [J].
   double total() const { return kinetic + elastic + potential + contact; }
 };
 
-/// What an obstacle does to the body, or to one of several bodies all the others. The mean force on
-/// the body over the last macro step. The force on the obstacle is the negative.
+/// Mean force and torque on the body over the last macro step, from one obstacle. With several
+/// bodies, also those on one body from all the others. The force on the obstacle is the negative.
 struct Wrench {
-  std::string obstacle;         ///< its name, or that of the body, see wrench_names()
-  Point force = Point::Zero();  ///< on the body [N]
-  /// about the obstacle's origin, which moves with it, or about the scene's [N m]
+  std::string obstacle;         ///< name of the obstacle or of the body, see wrench_names()
+  Point force = Point::Zero();  ///< force on the body [N]
+  /// Torque about the obstacle's origin, which moves with it, or about the scene's [N m]
   Point torque = Point::Zero();
 };
 
-/// Where an obstacle with mass is.
+/// Pose and velocity of an obstacle with mass.
 struct ToolState {
-  std::string obstacle;                ///< its name
-  Point displacement = Point::Zero();  ///< of its centre of mass, from where its shape says [m]
-  Point velocity = Point::Zero();      ///< [m/s]
-  bool turns = false;                  ///< it has inertia
-  /// its direction is the axis, its length the angle, at most pi [rad]
+  std::string obstacle;  ///< name of the obstacle
+  /// Displacement of its centre of mass, from where its shape says [m]
+  Point displacement = Point::Zero();
+  Point velocity = Point::Zero();  ///< [m/s]
+  bool turns = false;              ///< whether it has inertia
+  /// Rotation: its direction is the axis, its length the angle, at most pi [rad]
   Point rotation = Point::Zero();
   Point angular_velocity = Point::Zero();  ///< [rad/s]
 };
 
-/// What an obstacle that can take hold of points holds.
+/// Surface points that an obstacle has grasped.
 struct HeldBy {
-  std::string obstacle;     ///< its name
-  std::vector<int> points;  ///< of the embedded surface
+  std::string obstacle;     ///< name of the obstacle
+  std::vector<int> points;  ///< points of the embedded surface
 };
 
-/// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
+/// Reason why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  /// non_finite | inverted | energy | speed | contact | solver | stability
+  /// Kind: non_finite | inverted | energy | speed | contact | solver | stability
   std::string kind;
-  int level = -1;                    ///< 0: the finest
-  int element = -1;                  ///< tetrahedron of that level
-  int vertex = -1;                   ///< vertex of that level
-  std::string region;                ///< of the element; empty: nameless
-  double J = 0;                      ///< volume ratio of the element
-  double substep_over_critical = 0;  ///< of that level
-  double motion_over_edge = 0;       ///< the furthest that a vertex of level 0 came in a sub-step,
-                                     ///< against the body, over its edge
-  std::string reason;                ///< of a solver: its own words
-  std::string remedy;                ///< most likely to help
-  std::string text() const;          ///< one sentence with all of it
+  int level = -1;      ///< 0: the finest
+  int element = -1;    ///< tetrahedron of that level
+  int vertex = -1;     ///< vertex of that level
+  std::string region;  ///< region of the element; empty: nameless
+  double J = 0;        ///< volume ratio of the element
+  /// Sub-step of that level over its critical step
+  double substep_over_critical = 0;
+  /// Maximum motion of a vertex of level 0 in a sub-step, against the body, over its edge
+  double motion_over_edge = 0;
+  std::string reason;        ///< details in words, such as those of a solver
+  std::string remedy;        ///< remedy that is most likely to help
+  std::string text() const;  ///< returns one sentence with all of it
 };
 
-/// What a simulation carries from one macro step to the next, in bytes that only Simulation reads.
+/// Snapshot of what a simulation carries from one macro step to the next. Only Simulation reads its
+/// bytes.
 struct SavedState {
-  std::vector<unsigned char> bytes;  ///< to be kept as they are
+  std::vector<unsigned char> bytes;  ///< content, to be kept as it is
 };
 
-/// Of a level with linear elements per tetrahedron, with nodal ones per vertex; in input order.
+/// Values per tetrahedron of a level with linear elements, per vertex with nodal ones; in input
+/// order.
 struct ElementFields {
-  bool per_vertex = false;  ///< else per tetrahedron
+  bool per_vertex = false;  ///< whether per vertex, else per tetrahedron
 
   std::vector<double> von_mises;  ///< equivalent stress of the Cauchy stress [Pa]
   std::vector<double> J;          ///< volume ratio

@@ -6,17 +6,17 @@
 
 namespace plica {
 
-/// A number of a vertex, an element or an entry, as an index.
+/// Returns the number of a vertex, an element or an entry as an index.
 constexpr std::size_t index_of(int number) { return static_cast<std::size_t>(number); }
 
-/// How many parts for_row_parts() cuts so many rows into.
+/// Returns the number of parts into which for_row_parts() cuts `count` rows.
 inline std::size_t row_parts(std::size_t count) {
   return std::min(count,
                   8 * static_cast<std::size_t>(Kokkos::DefaultHostExecutionSpace().concurrency()));
 }
 
-/// Calls work(part, first, last) for parts of 0 ... count - 1 that together are all of it, by all
-/// threads of the host.
+/// Calls work(part, first, last) for parts of 0 ... count - 1, by all threads of the host. Together
+/// the parts are all of it.
 template <class Work>
 void for_row_parts(std::size_t count, const Work& work) {
   using Exec = Kokkos::DefaultHostExecutionSpace;
@@ -26,7 +26,8 @@ void for_row_parts(std::size_t count, const Work& work) {
                        [&](std::size_t p) { work(p, p * count / parts, (p + 1) * count / parts); });
 }
 
-/// The same, for work that need not know its part's number.
+/// Calls work(first, last) for parts of 0 ... count - 1, by all threads of the host. Together the
+/// parts are all of it.
 template <class Work>
 void for_row_ranges(std::size_t count, const Work& work) {
   for_row_parts(count,

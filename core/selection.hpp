@@ -4,38 +4,38 @@
 #include <string>
 #include <variant>
 
-/// Parts of a body, chosen at rest and before it is placed, anew on every level: vertices, or the
-/// elements whose centroid is there. Choosing nothing on a level is an error.
+/// Parts of a body, chosen at rest and before it is placed, anew on every level. They are vertices,
+/// or the elements whose centroid is there. Choosing nothing on a level is an error.
 namespace plica {
 
-/// What lies in a ball.
+/// Selection of what lies in a ball.
 struct BallSelection {
   Point centre = Point::Zero();  ///< [m]
-  double radius = 1;             ///< its surface included [m]
+  double radius = 1;             ///< radius, surface included [m]
 };
 
-/// What lies on the plane or below it: on the side its normal points away from.
+/// Selection of what lies on a plane or below it: on the side that its normal points away from.
 struct HalfSpaceSelection {
-  Point point = Point::Zero();    ///< on the plane [m]
-  Point normal = Point::UnitZ();  ///< its length does not matter
+  Point point = Point::Zero();    ///< point on the plane [m]
+  Point normal = Point::UnitZ();  ///< normal; its length does not matter
 };
 
-/// The mesh's vertex set of that name or, where there is none, its region.
+/// Selection by name: the mesh's vertex set or, where there is none, its region.
 struct GroupSelection {
-  std::string name;  ///< as the mesh has it
+  std::string name;  ///< name in the mesh
 };
 
-/// A region of the mesh or of the options.
+/// Selection of a region of the mesh or of the options.
 struct RegionSelection {
-  std::string name;  ///< as they have it
+  std::string name;  ///< name in the mesh or the options
 };
 
-/// The one nearest to a point; of several the one with the lowest number.
+/// Selection of the one nearest to a point; of several the one with the lowest number.
 struct NearestSelection {
   Point to = Point::Zero();  ///< [m]
 };
 
-/// Any of them.
+/// Selection of any kind.
 using Selection = std::variant<Box, BallSelection, HalfSpaceSelection, GroupSelection,
                                RegionSelection, NearestSelection>;
 

@@ -73,13 +73,13 @@ KOKKOS_INLINE_FUNCTION Mat3<T> operator*(const Mat3<T>& A, const Mat3<T>& B) {
   return C;
 }
 
-/// x y^T
+/// Returns x y^T.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> outer(const Vec3<T>& x, const Vec3<T>& y) {
   return {x[0] * y, x[1] * y, x[2] * y};
 }
 
-/// y -> x cross y
+/// Returns the matrix of y -> x cross y.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> cross_matrix(const Vec3<T>& x) {
   return {Vec3<T>{T(0), -x[2], x[1]}, Vec3<T>{x[2], T(0), -x[0]}, Vec3<T>{-x[1], x[0], T(0)}};
@@ -90,19 +90,19 @@ KOKKOS_INLINE_FUNCTION T trace(const Mat3<T>& A) {
   return A[0][0] + A[1][1] + A[2][2];
 }
 
-/// A : B, the sum of the products of their entries
+/// Returns A : B, the sum of the products of their entries.
 template <class T>
 KOKKOS_INLINE_FUNCTION T inner(const Mat3<T>& A, const Mat3<T>& B) {
   return dot(A[0], B[0]) + dot(A[1], B[1]) + dot(A[2], B[2]);
 }
 
-/// det(A) A^-T, smooth in A also where det A = 0
+/// Returns det(A) A^-T, smooth in A also where det A = 0.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> cofactor(const Mat3<T>& A) {
   return {cross(A[1], A[2]), cross(A[2], A[0]), cross(A[0], A[1])};
 }
 
-/// the derivative of cofactor(A) in direction dA
+/// Returns the derivative of cofactor(A) in direction dA.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> cofactor_change(const Mat3<T>& A, const Mat3<T>& dA) {
   return {cross(dA[1], A[2]) + cross(A[1], dA[2]), cross(dA[2], A[0]) + cross(A[2], dA[0]),
@@ -121,7 +121,7 @@ struct SymMat3 {
 
   KOKKOS_INLINE_FUNCTION T& operator[](int i) { return a[i]; }
   KOKKOS_INLINE_FUNCTION const T& operator[](int i) const { return a[i]; }
-  /// Which of the six entry k of all nine is, row by row.
+  /// Returns which of the six numbers entry k of all nine is, row by row.
   static KOKKOS_INLINE_FUNCTION int place(int k) {
     constexpr int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
     return places[k];
@@ -132,7 +132,7 @@ struct SymMat3 {
   }
 };
 
-/// A symmetric matrix as xx yy zz xy xz yz.
+/// Returns a symmetric matrix as xx yy zz xy xz yz.
 template <class T>
 KOKKOS_INLINE_FUNCTION SymMat3<T> six_of(const Mat3<T>& M) {
   return {{M[0][0], M[1][1], M[2][2], M[0][1], M[0][2], M[1][2]}};
@@ -143,7 +143,7 @@ KOKKOS_INLINE_FUNCTION Mat3<T> matrix_of(const SymMat3<T>& m) {
           Vec3<T>{m.a[4], m.a[5], m.a[2]}};
 }
 
-/// Whether A is positive definite, and then its inverse.
+/// Computes the inverse of A where A is positive definite; returns false where it is not.
 template <class T>
 KOKKOS_INLINE_FUNCTION bool invert_positive(const SymMat3<T>& A, SymMat3<T>& inverse) {
   const T xx = A[0], yy = A[1], zz = A[2], xy = A[3], xz = A[4], yz = A[5];

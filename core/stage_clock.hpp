@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// Wall time per stage and level, on request: only then does it wait for the device at a stage's
-/// ends.
+/// Wall time per stage and level, on request. It waits for the device at a stage's ends only when
+/// it is on.
 template <class B>
 class StageClock {
  public:

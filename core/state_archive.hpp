@@ -9,8 +9,9 @@
 
 namespace plica {
 
-/// Walks what a simulation carries from one macro step to the next. Whoever owns some of it names
-/// it once; the archive saves it, checks that saved bytes fit it, or restores it.
+/// Archive of what a simulation carries from one macro step to the next. Each owner names its
+/// numbers and fields once. The archive saves them, checks that saved bytes fit them, or restores
+/// them.
 template <class B>
 class StateArchive {
  public:
@@ -27,7 +28,8 @@ class StateArchive {
       std::memcpy(&value, from, sizeof value);
   }
 
-  /// A number that must be as it was: InputError otherwise.
+  /// Saves a number that must be equal later; throws InputError where it differs from the saved
+  /// one.
   template <class Number>
   void same(const std::string& what, Number value) {
     Number saved = value;
@@ -37,7 +39,7 @@ class StateArchive {
       throw InputError("the saved state is that of another simulation: " + what + " differs");
   }
 
-  /// A device field, which may be empty.
+  /// Saves, checks or restores a device field, which may be empty.
   template <class View>
   void field(const std::string& what, const View& view) {
     const std::size_t size = fields::bytes_of(view);
@@ -56,7 +58,7 @@ class StateArchive {
   }
 
   bool restoring() const { return task_ == Task::restore; }
-  /// After all of it: whether bytes are left over.
+  /// Throws InputError where bytes are left over. Call it after all numbers and fields.
   void finish() const {
     if (task_ != Task::save && at_ != bytes_.size())
       throw InputError("the saved state is damaged: " + std::to_string(bytes_.size() - at_) +

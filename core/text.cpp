@@ -20,10 +20,10 @@ namespace {
 
 constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-// What a first byte says: how many bytes follow it, and the range of the second. That range leaves
+// Meaning of a first byte: how many bytes follow it, and the range of the second. The range leaves
 // out overlong forms, the surrogates, and what lies beyond U+10FFFF.
 struct Lead {
-  int following = -1;  // not a first byte
+  int following = -1;  // -1: not a first byte
   unsigned char lowest = 0x80, highest = 0xBF;
 };
 

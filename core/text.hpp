@@ -6,11 +6,12 @@
 #include <string_view>
 #include <vector>
 
-/// Messages are put together as strings of the length that they need: names in them come from files
-/// and may be long.
+/// Text of messages, in strings of the length that it needs. Names in messages come from files and
+/// may be long.
 namespace plica {
 
-/// `value` in `digits` significant digits, as printf's %.4g writes it: "0.002", "1e-09", "inf".
+/// Returns `value` in `digits` significant digits, as printf's %.4g writes it: "0.002", "1e-09",
+/// "inf".
 std::string number(double value, int digits = 6);
 
 namespace detail {
@@ -18,8 +19,8 @@ inline void append(std::string& all, std::string_view part) { all += part; }
 inline void append(std::string& all, std::integral auto part) { all += std::to_string(part); }
 }  // namespace detail
 
-/// The parts one after the other: strings and integers. A real number says its digits: text("it
-/// takes ", number(t, 3), " s").
+/// Returns the parts one after the other: strings and integers. A real number says its digits:
+/// text("it takes ", number(t, 3), " s").
 template <class... Parts>
 std::string text(const Parts&... parts) {
   std::string all;
@@ -27,13 +28,14 @@ std::string text(const Parts&... parts) {
   return all;
 }
 
-/// The text with U+FFFD in place of every byte sequence that is not UTF-8 (RFC 3629), as the
-/// Unicode standard recommends it (chapter 3.9, "U+FFFD substitution of maximal subparts"). Valid
-/// text stays as it is.
+/// Returns the text with U+FFFD in place of every byte sequence that is not UTF-8 (RFC 3629). The
+/// Unicode standard recommends this way (chapter 3.9, "U+FFFD substitution of maximal subparts").
+/// Valid text stays as it is.
 std::string valid_utf8(std::string_view text);
 
-/// For names that must stay distinct: each name and its valid form. Where several would become the
-/// same, all but the first get a number: "L?ber", "L?ber (2)", with U+FFFD for the question mark.
+/// Returns each name with its valid form, for names that must stay distinct. Where several would
+/// become the same, all but the first get a number: "L?ber", "L?ber (2)", with U+FFFD for the
+/// question mark.
 std::map<std::string, std::string> valid_names(const std::vector<std::string>& names);
 
 }  // namespace plica

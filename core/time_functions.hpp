@@ -5,16 +5,16 @@
 #include <plica/core/path.hpp>
 #include <vector>
 
-// What is given as a function of time, on the host: motions and the factors of loads.
+// Functions of time, on the host: motions and the factors of loads.
 namespace plica {
 
-/// A motion for path_at(); its knots go to the end of `knots`.
+/// Makes a motion for path_at(); its knots go to the end of `knots`.
 Path make_path(const Motion& motion, std::vector<PathKnot>& knots);
 
-/// Whether it ever moves.
+/// Returns whether a motion ever moves.
 bool moves(const Motion& motion);
 
-/// What a load's forces are multiplied with at a time [s] >= 0.
+/// Returns the factor by which a load's forces are multiplied at a time >= 0 [s].
 double load_factor(const LoadCourse& course, double time);
 
 }  // namespace plica

@@ -7,7 +7,7 @@
 
 namespace plica {
 
-/// Points as the rows of a view.
+/// Returns points as the rows of a view.
 template <class Real>
 std::vector<std::array<Real, 3>> rows(const std::vector<Point>& points) {
   std::vector<std::array<Real, 3>> result;

@@ -9,39 +9,39 @@ namespace plica {
 /// outside the other mesh where that is asked for.
 template <class B>
 struct Transfer {
-  /// targets that have one
+  /// Number of targets that have a row
   int rows = 0;
   Indices<B> target;  ///< [rows]
-  /// vertices of the other mesh
+  /// [rows] vertices of the other mesh
   Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> source;
-  /// each row sums to 1
+  /// [rows] weights, which sum to 1 in each row
   Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> weight;
 };
 
-/// The adjoint of an interpolation, in gather form: to every coarse vertex the finer ones in its
-/// elements, in order. Forces take the interpolation's own weights; states their averages by mass,
-/// which keep momentum where masses are inherited.
+/// Adjoint of an interpolation, in gather form. Each coarse vertex has a row of the finer ones in
+/// its elements, in order. Forces take the interpolation's own weights. States take averages by
+/// mass, which keep momentum where masses are inherited.
 template <class B>
 struct Restriction {
   int rows = 0;        ///< coarse vertices, one row each
-  Indices<B> first;    ///< [rows + 1] into the others
+  Indices<B> first;    ///< [rows + 1] into source, weight and average
   Indices<B> source;   ///< a finer vertex, ascending in a row
-  Scalars<B> weight;   ///< of its force; 0 where it is only averaged
-  Scalars<B> average;  ///< of its state; each row sums to 1
+  Scalars<B> weight;   ///< weight of its force; 0 where it is only averaged
+  Scalars<B> average;  ///< weight of its state; each row sums to 1
 };
 
-/// The body's surface points in one level: x = rest + sum of weight * u, and the transpose for
-/// forces, in gather form so that every vertex adds its points in a fixed order.
+/// Surface points of the body in one level: x = rest + sum of weight * u. Forces take the
+/// transpose, in gather form, so that every vertex adds its points in a fixed order.
 template <class B>
 struct EmbeddedSurface {
-  int points = 0;         ///< of the surface; 0: the level carries none
+  int points = 0;         ///< points of the surface; 0: the level carries none
   Vectors<B> rest;        ///< [points][3]
   Transfer<B> embedding;  ///< a row per point, in order
   int touched = 0;        ///< vertices with a point in one of their tetrahedra
   Indices<B> vertex;      ///< [touched]
   Indices<B> first;       ///< [touched + 1] into point and weight
   Indices<B> point;       ///< a surface point
-  Scalars<B> weight;      ///< of the vertex in it
+  Scalars<B> weight;      ///< weight of the vertex in that point
 };
 
 }  // namespace plica

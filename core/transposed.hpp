@@ -6,10 +6,10 @@
 namespace plica {
 
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
-/// Four packs of N numbers from N rows of four in memory, and back: rows are loaded whole and
-/// transposed in registers, a third of the instructions that number by number would take. Packs may
-/// be wider than the registers of the machine; bare vectors of that width are never passed by
-/// value, as the calling convention would then depend on the processor.
+/// Transposes N rows of four numbers in memory into four packs of N numbers, and back. Rows are
+/// loaded whole and transposed in registers, by a third of the instructions that number by number
+/// would take. Packs may be wider than the registers of the machine. Bare vectors of that width are
+/// never passed by value, as the calling convention would then depend on the processor.
 ///
 /// Each step mixes two packs. That is one cheap instruction where numbers stay within their 16
 /// bytes, or where 16 bytes move as a whole. 16 bytes are four floats or two doubles:
@@ -23,7 +23,7 @@ class Transposed {
   static constexpr bool possible = N == 4 || N == 8 || N == 16;
   using Packed = Pack<T, N>;
 
-  /// Lane l of v is the four numbers at row(l).
+  /// Loads the four numbers at row(l) into lane l of v.
   template <class Row>
   static void load(const Row& row, Packed (&v)[4]) {
     const Packed a = gather(0, row), b = gather(1, row), c = gather(third, row),
@@ -40,7 +40,7 @@ class Transposed {
       v[1] = mix<fours<0, 2, 0, 2>>(odd, odd2), v[3] = mix<fours<1, 3, 1, 3>>(odd, odd2);
     }
   }
-  /// The other way round.
+  /// Stores lane l of v as the four numbers at row(l).
   template <class Row>
   static void store(const Packed (&v)[4], const Row& row) {
     if constexpr (by_pairs) {
@@ -60,15 +60,15 @@ class Transposed {
 
  private:
   static constexpr bool by_pairs = sizeof(T) == 8;
-  /// of the rows that lie side by side in a pack
+  /// Distance of the rows that lie side by side in a pack
   static constexpr int step = by_pairs ? 2 : 4;
   static constexpr int third = by_pairs ? N / 2 : 2;  ///< the first row of the third of four packs
   typedef T Quarter __attribute__((vector_size(4 * sizeof(T))));
-  struct __attribute__((packed, may_alias)) Four {  ///< in memory, wherever it begins
+  struct __attribute__((packed, may_alias)) Four {  ///< four numbers in memory, wherever they begin
     Quarter v;
   };
 
-  /// Rows first, first + step, first + 2 step ... side by side.
+  /// Returns rows first, first + step, first + 2 step ... side by side.
   template <class Row>
   static Packed gather(int first, const Row& row) {
     const auto four = [&](int j) { return reinterpret_cast<const Four*>(row(first + step * j)); };
@@ -93,7 +93,7 @@ class Transposed {
     (std::make_index_sequence<N / 4>{});
   }
 
-  /// Number i is number from(i) of x, or from N on of y.
+  /// Mixes two packs: number i is number from(i) of x, or for from(i) >= N, from(i) - N of y.
   template <int (*from)(int)>
   static Packed mix(const Packed& x, const Packed& y) {
     return [&]<std::size_t... i>(std::index_sequence<i...>) {
@@ -103,7 +103,8 @@ class Transposed {
     }
     (std::make_index_sequence<N>{});
   }
-  /// In every four a, b of x, then c, d of y.
+  /// Returns where number i of a mix comes from. In every four these are a and b of x, then c and d
+  /// of y.
   template <int a, int b, int c, int d>
   static constexpr int fours(int i) {
     constexpr int from[4] = {a, b, N + c, N + d};
@@ -120,7 +121,7 @@ class Transposed {
 };
 #endif
 
-/// Lane l of v is the four numbers at row(l).
+/// Loads the four numbers at row(l) into lane l of v.
 template <class T, class Row>
 KOKKOS_INLINE_FUNCTION void load_fours(const Row& row, T (&v)[4]) {
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
@@ -131,8 +132,8 @@ KOKKOS_INLINE_FUNCTION void load_fours(const Row& row, T (&v)[4]) {
     for (int k = 0; k < 4; ++k) set_lane(v[k], l, row(l)[k]);
 }
 
-/// Lane l of v is the vector at row(l), where a pack is read four numbers at a time, the last of
-/// them not used.
+/// Loads the vector at row(l) into lane l of v. A pack is read four numbers at a time, the last of
+/// which is not used.
 template <class T, class Row>
 KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
@@ -147,7 +148,7 @@ KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
     for (int k = 0; k < 3; ++k) set_lane(v[k], l, row(l)[k]);
 }
 
-/// The other way round: lane l of four values to the four numbers at row(l).
+/// Stores lane l of the four values v as the four numbers at row(l).
 template <class T, class Row>
 KOKKOS_INLINE_FUNCTION void store_fours(const T (&v)[4], const Row& row) {
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)

@@ -8,19 +8,19 @@ namespace plica {
 /// A family of types known at compile time.
 template <class... Types>
 struct TypeList {
-  /// f(T{}) for every member, in order.
+  /// Calls f(T{}) for every member, in order.
   template <class F>
   static void for_each(const F& f) {
     (f(Types{}), ...);
   }
 
-  /// f(T{}) for the member whose T::name is `name`; false where there is none.
+  /// Calls f(T{}) for the member whose T::name is `name`; returns false where there is none.
   template <class F>
   static bool visit(std::string_view name, const F& f) {
     return ((name == Types::name ? (f(Types{}), true) : false) || ...);
   }
 
-  /// The place of T, or the number of members.
+  /// Returns the place of T, or the number of members where it is none.
   template <class T>
   static constexpr int place_of() {
     int place = 0;
@@ -31,7 +31,7 @@ struct TypeList {
   static constexpr bool has = (std::is_same_v<T, Types> || ...);
 };
 
-/// The members of two families.
+/// List of the members of two families.
 template <class First, class Second>
 struct JoinedLists;
 template <class... First, class... Second>

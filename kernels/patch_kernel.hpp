@@ -9,21 +9,21 @@
 
 namespace plica {
 
-/// What an integrand is given of the elements of one pack.
+/// Gradients and volumes of the elements of one pack, one element in each lane.
 template <class T>
 struct ElementShape {
-  /// of the shape functions of corners 1, 2, 3 [1/m]; corner 0's is minus their sum
+  /// Gradients of the shape functions of corners 1, 2, 3 [1/m]; that of corner 0 is minus their sum
   Vec3<T> gradient[3];
-  T volume;  ///< [m^3]
+  T volume;  ///< volume [m^3]
 };
 
-/// Where a pack's numbers lie in scratch.
+/// Numbers from one vector of a patch to the next in scratch. With 4, each vector fills whole
+/// quarters of a register.
 template <class B>
-inline constexpr int patch_stride =
-    B::lanes >= 4 ? 4 : 3;  ///< of vectors: whole quarters of a register
+inline constexpr int patch_stride = B::lanes >= 4 ? 4 : 3;
 
-/// What the pack after next but one reads: a patch's streams are too many and too short for the
-/// hardware to foresee.
+/// Prefetches `count` numbers, those of the pack three ahead of the present one. A patch's streams
+/// are too many and too short for the hardware to foresee.
 template <int lanes, class Number>
 KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from,
                                           [[maybe_unused]] int count) {
@@ -34,8 +34,8 @@ KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from,
 #endif
 }
 
-/// The vectors that a patch's vertices have in some fields, into `local`. A CPU reads four numbers
-/// at once, except at the greatest vertex, behind which there may be nothing to read.
+/// Loads the vectors that a patch's vertices have in some fields into `local`. A CPU reads four
+/// numbers at once, except at the greatest vertex, behind which there may be nothing to read.
 template <class B, int fields, class Member>
 KOKKOS_INLINE_FUNCTION void load_patch(const Member& team, const Patches<B>& patches, int patch,
                                        const Vectors<B> (&field)[fields], typename B::Real* local) {
@@ -56,7 +56,7 @@ KOKKOS_INLINE_FUNCTION void load_patch(const Member& team, const Patches<B>& pat
   team.team_barrier();
 }
 
-/// A pack's elements, and the gradients G of the vertex fields in `local`.
+/// Loads a pack's elements, and computes the gradients G of the vertex fields in `local`.
 template <class B, int fields, class T>
 KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack,
                                       const typename B::Real* local, ElementShape<T>& shape,
@@ -92,35 +92,38 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack,
 // of threads works on one patch, in memory that is its own: the first-level cache of a CPU, the
 // shared memory of a GPU. It gathers the displacements of the patch's vertices once. It computes
 // the elements a pack at a time: one element in each lane of a vector register, so that each
-// instruction serves 2 to 16 elements. Each element writes the forces at its four corners to a
-// place of its own, and nobody else writes there. Then each vertex of the patch adds up the places
-// that belong to it, in a stored order; a CPU does so for four vertices at once. A vertex on the
-// border of patches has such a sum in each of them; a second kernel, gather_forces, adds these up.
-// No two threads ever write to one number, so no atomics are needed.
+// instruction serves 2 to 16 elements. Each element writes the forces at its four corners to slots
+// of its own. Then each vertex of the patch adds up the slots that belong to it, in a stored order;
+// a CPU does so for four vertices at once. A vertex on the border of patches has such a sum in each
+// of them; a second kernel, gather_forces, adds these up. No two threads ever write to one number,
+// so no atomics are needed.
 //
-//   u [vertices][3]                                      one patch, in scratch
-//     | 1. gather by `vertex`          .--------------------------------------------------------------.
-//     '------------------------------> | local   [patch vertex] (x y z -)    a fourth number pads it  |
-//                                      |   | 2. by `corner`, transposed: lane l = element l of a pack |
-//   corner, shape [pack] ------------> |   v     element(): grad u -> integrand -> 4 corner vectors   |
-//     (streamed from memory)           | forces  [pack][corner][x y z][lane]                          |
-//                                      |   | 3. each patch vertex adds its slots, by `slot`           |
-//     .------------------------------- |   v     sums                                                 |
-//     v                                '--------------------------------------------------------------'
+//   u [vertices][3]                                  one patch, in scratch
+//     | 1. gather by `vertex`      .--------------------------------------------------------------.
+//     '--------------------------> | local   [patch vertex] (x y z -)    a fourth number pads it  |
+//                                  |   | 2. by `corner`, transposed: lane l = element l of a pack |
+//   corner, shape [pack] --------> |   v     element(): grad u -> integrand -> 4 corner vectors   |
+//     (streamed from memory)       | forces  [pack][corner][x y z][lane]                          |
+//                                  |   | 3. each patch vertex adds its slots, by `slot`           |
+//     .--------------------------- |   v     sums                                                 |
+//     v                            '--------------------------------------------------------------'
 //   partial [patch vertex][3]
 //     | 4. gather_forces: each vertex of the mesh adds its copies, by `copy`, and its weight
 //     v
 //   f [vertices][3]
 
-/// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team
-/// per patch:
-/// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into
-/// scratch, 3. their sums per patch vertex into `partial`. An integrand has
+/// Runs an integrand over all elements, and adds its corner vectors up per patch vertex. One team
+/// works on a patch, in three steps:
+///   1. the patch's vertex fields into scratch,
+///   2. the corner vectors of its elements into scratch,
+///   3. their sums per patch vertex into `partial`.
+/// An integrand has
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
-///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
-/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`.
-/// Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 8 (slots), and
-/// per patch vertex 7 + 3 s fields + 3 s.
+///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4],
+///                   int patch, int pack)
+/// with G the gradients of the fields. An integrand that has a member `adds` adds to what is in
+/// `partial`. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 8
+/// (slots), and per patch vertex 7 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
   using Real = typename B::Real;
@@ -149,7 +152,7 @@ struct PatchKernel {
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     Real* const forces = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Real* const local = forces + force_slots;
-    if constexpr (at_once > 1)  // what `nothing` points to
+    if constexpr (at_once > 1)  // zeros, to which slot `nothing` refers
       for (int k = 0; k < 3; ++k) forces[Patches<B>::nothing + k * lanes] = 0;
 
     load_patch<B>(team, patches, p, integrand.field, local);
@@ -186,7 +189,7 @@ struct PatchKernel {
   }
 };
 
-/// Corner vectors of a stress: minus volume * P * gradient, balanced.
+/// Computes the corner vectors of a stress P: -volume * P * gradient, with a sum of 0.
 template <class T>
 KOKKOS_INLINE_FUNCTION void stress_to_corners(const Mat3<T>& P, const ElementShape<T>& shape,
                                               Vec3<T> (&corner)[4]) {
@@ -195,6 +198,7 @@ KOKKOS_INLINE_FUNCTION void stress_to_corners(const Mat3<T>& P, const ElementSha
   corner[0] = T(-1) * (corner[1] + corner[2] + corner[3]);
 }
 
+/// Launches an integrand on all patches, with its sums per patch vertex in `partial`.
 template <class B, class Integrand>
 void launch_patches(const typename B::Exec& exec, const char* label, const Patches<B>& patches,
                     const Integrand& integrand, const Vectors<B>& partial) {

@@ -6,8 +6,7 @@
 
 namespace plica {
 
-/// N sums at once, always in double; the last `Maxima` of them are the largest instead, of values
-/// not below 0.
+/// N sums, always in double. The last `Maxima` of them are maxima instead, of values not below 0.
 template <int N, int Maxima = 0>
 struct Sums {
   static constexpr int maxima = Maxima;
@@ -31,7 +30,7 @@ struct Kokkos::reduction_identity<plica::Sums<N, Maxima>> {
 
 namespace plica {
 
-/// Where reductions keep their block sums; sized once for the longest field.
+/// Memory in which reductions keep the sums of their blocks; sized once for the longest field.
 template <class B>
 class BlockSums {
  public:
@@ -47,20 +46,20 @@ class BlockSums {
   View sums_;
 };
 
-/// What follows a sum in the same launch: nothing.
+/// Default for the work that follows a sum in the same launch: there is none.
 struct Nothing {
   KOKKOS_INLINE_FUNCTION void operator()() const {}
 };
 
-/// blocks(b, k) = the sum of term(i)[k] over the items i of block b; a CPU's thread takes a block
-/// at a time, a GPU's team.
+/// Computes the sums of blocks: blocks(b, k) = the sum of term(i)[k] over the items i of block b. A
+/// thread of a CPU takes a block at a time, a team of a GPU one block.
 template <class B, int N, class Term, class Tally, class Then>
 struct SumOfBlock {
   using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
   int n, block;
   Term term;
   typename BlockSums<B>::View blocks;
-  bool last;  ///< there is one block, and `then` follows
+  bool last;  ///< true where this sum is the result, and `then` follows
   Then then;
 
   KOKKOS_INLINE_FUNCTION int begin(int b) const { return b * block; }
@@ -84,7 +83,7 @@ struct SumOfBlock {
   }
 };
 
-/// The sums of block b, to be added up.
+/// Sums of block b, as the terms of a sum over the blocks.
 template <class B, int N, class Tally>
 struct BlockTotal {
   typename BlockSums<B>::View blocks;
@@ -104,19 +103,19 @@ void launch_blocks(const typename B::Exec& exec, const char* label, int count, c
     launch(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
 }
 
-/// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest
-/// instead.
+/// Computes result(k) = sum over b < count of blocks(b, k) for k < n. The last `maxima` of them are
+/// the maxima over the blocks instead.
 template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
-/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally
-/// operator()(int) const. What is worked out from the result alone may follow without a launch of
-/// its own. then: void operator()() const.
+/// Computes result(k) = sum over i < n of term(i)[k]. The order of additions depends on n alone.
+/// term: Tally operator()(int) const. Work that needs the result alone may follow without a launch
+/// of its own. then: void operator()() const.
 ///
-///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     one after the other in each block
+///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     in each block in order
 ///                  |                      |                  |
-///   blocks    sum of block 0        sum of block 1         ...         one after the other
+///   blocks    sum of block 0        sum of block 1         ...         in order
 ///                  \_______________________|__________________/
 ///   result                       their sum, then `then`
 template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
@@ -125,7 +124,7 @@ void reduce(const typename B::Exec& exec, const char* label, int n, const Term& 
   static_assert(N <= BlockSums<B>::widest);
   constexpr int block = BlockSums<B>::block;
   const int count = (n + block - 1) / block;
-  const bool alone = count == 1;  // then the block's sum is the result
+  const bool alone = count == 1;  // the block's sum is the result
   const typename BlockSums<B>::View whole(result.data(), 1), &parts = alone ? whole : blocks.view();
   launch_blocks<B>(exec, label, count,
                    SumOfBlock<B, N, Term, Tally, Then>{n, block, term, parts, alone, then});

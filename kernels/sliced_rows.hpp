@@ -3,15 +3,15 @@
 #include <plica/core/backend.hpp>
 #include <plica/core/transposed.hpp>
 
-// Rows of a sparse matrix that are stored in slices of `slice_height` beside each other (sliced
-// ELLPACK, Monakov, Lokhmotov & Avetisyan 2010): a row per lane of a register, or per thread. Slot
-// = slice * height + row of the slice.
+// Rows of a sparse matrix that are stored in slices of `slice_height` rows side by side (sliced
+// ELLPACK, Monakov, Lokhmotov & Avetisyan 2010). Each row has a lane of a register, or a thread.
+// Slot = slice * height + row of the slice.
 namespace plica {
 
-/// What one work item computes: `lanes` rows of a slice.
+/// Rows that one work item computes: `lanes` rows of a slice.
 template <class B>
 struct RowsAt {
-  int slice, offset, slot;  ///< offset: of the first of them in the slice; slot: of the first
+  int slice, offset, slot;  ///< offset: place of the first row in the slice; slot: of the first row
   explicit KOKKOS_INLINE_FUNCTION RowsAt(int item)
       : slice(item * B::lanes / slice_height<B>),
         offset(item * B::lanes % slice_height<B>),

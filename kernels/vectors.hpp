@@ -7,22 +7,22 @@
 #include <plica/core/transfer.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// The vocabulary of the vertex kernels: what one vertex, surface point or block is asked for, and
-// the updates and sums of whole fields. A kernel of its own is for what these do not say, or for
-// what would read a field once more. Labels name a launch to profilers; the caller passes them.
+// Building blocks of the vertex kernels: what one vertex, surface point or block is asked for, and
+// the updates and sums of whole fields. A kernel is written separately only for what these cannot
+// do, or for what would read a field once more. Labels name a launch to profilers; the caller
+// passes them.
 namespace plica {
 
-// ---- launches
-// -----------------------------------------------------------------------------------------------------------
+// ---- launches ------------------------------------------------------------------------------
 
-/// work(i) for i < n
+/// Runs work(i) for i < n.
 template <class B, class Work>
 void update_vertices(const typename B::Exec& exec, const char* label, int n, const Work& work) {
   launch(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), like_device::shuffled(n, work));
 }
 
-/// Work that is left out where a count on the device is 0, without the host knowing; an empty
-/// count: always done.
+/// Work that is left out where a count on the device is 0, so that the host need not know it. An
+/// empty count: the work is always done.
 template <class B, class Work>
 struct WhereTouching {
   const double* count;
@@ -38,7 +38,7 @@ void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const
   update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count.data(), work});
 }
 
-/// The terms of a sum that is 0 where the count is.
+/// Terms of a sum; all are 0 where a count on the device is 0.
 template <class B, class Term>
 struct TermWhereTouching {
   const double* count;
@@ -55,10 +55,9 @@ void sum_where_touching(const typename B::Exec& exec, const Doubles<B>& count, c
   reduce<B, N>(exec, label, n, TermWhereTouching<B, Term>{count.data(), term}, blocks, result);
 }
 
-// ---- of one vertex, point or block
-// --------------------------------------------------------------------------------------
+// ---- of one vertex, point or block ---------------------------------------------------------
 
-// By the stride that all of them have; a view's own index takes a multiplication.
+// Reads by the constant stride of three numbers; a view's own index takes a multiplication.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Vectors<B>& x, int a) {
   const auto* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(a);
@@ -80,13 +79,13 @@ KOKKOS_INLINE_FUNCTION void set_block(const Blocks<B>& d, int a,
                                       const SymMat3<typename B::Real>& value) {
   for (int k = 0; k < 6; ++k) d(a, k) = value[k];
 }
-/// A row's own block of a matrix.
+/// Returns the diagonal block of row a of a matrix.
 template <class B>
 KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> own_block(const BlockMatrix<B>& A, int a) {
   const auto* const b = &A.value(A.place(A.diagonal(a)), 0);
   return {{b[0], b[4], b[8], b[1], b[2], b[5]}};
 }
-/// Stored block += weight C
+/// Adds weight C to a stored block.
 template <class B>
 KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B::Real weight,
                                       const SymMat3<typename B::Real>& C) {
@@ -94,9 +93,9 @@ KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B
   for (int k = 0; k < 9; ++k) A.value(at, k) += weight * C[SymMat3<typename B::Real>::place(k)];
 }
 
-/// start + the sum of the shares that patches or regions have in vertex a, in their order. A kernel
-/// of linear elements leaves a vertex's sum in every patch that the vertex is in, one of nodal
-/// elements in every region; this adds them up:
+/// Returns start + the sum of the shares that patches or regions have in vertex a, in their order.
+/// A kernel of linear elements leaves a vertex's sum in every patch that the vertex is in, one of
+/// nodal elements in every region; this function adds them up:
 ///
 ///   patch 0 |. . x . .|  patch 1 |. x . .|  patch 2 |. . . x|      partial
 ///                 \______________  |  ___________________/
@@ -112,8 +111,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B
   return start;
 }
 
-/// x - x0, which is stored nowhere. For within a kernel: a copy of a view costs more than reading
-/// it.
+/// Difference x - x0 of two fields, which is stored nowhere. It is for use within a kernel and has
+/// references: a copy of a view costs more than reading it.
 template <class B>
 struct Difference {
   const Vectors<B>&x, &x0;
@@ -123,7 +122,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Difference<B>& d, 
   return vector_at<B>(d.x, a) - vector_at<B>(d.x0, a);
 }
 
-/// A vector and the number behind it, the next vector's first: a CPU reads four numbers at once.
+/// Returns a vector and the number behind it, the next vector's first. A CPU reads four numbers at
+/// once.
 template <class B>
 KOKKOS_INLINE_FUNCTION Pack<typename B::Real, 4> four_at(const Vectors<B>& x, int a) {
   return load_lanes<Pack<typename B::Real, 4>>(x.data() + 3 * static_cast<std::ptrdiff_t>(a));
@@ -133,8 +133,8 @@ KOKKOS_INLINE_FUNCTION Pack<typename B::Real, 4> four_at(const Difference<B>& d,
   return four_at<B>(d.x, a) - four_at<B>(d.x0, a);
 }
 
-/// Sum of weight(s) * x at vertex(s), over s from first to before last, x Vectors or a Difference.
-/// The greatest vertex is the last: behind it there may be nothing to read.
+/// Returns the sum of weight(s) * x at vertex(s), over s from first to before last. x: Vectors or a
+/// Difference. The greatest vertex is the last: behind it there may be nothing to read.
 template <class B, class Field, class Vertex, class Weight>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int first, int last,
                                                            const Vertex& vertex,
@@ -151,8 +151,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int f
   return sum;
 }
 
-/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over
-/// its four vertices.
+/// Returns start + the value of a field at point p, which lies in a tetrahedron. The value is the
+/// sum of weight * x over its four vertices.
 template <class B, class Field>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Field& x,
                                                        int p,
@@ -162,8 +162,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points
                      [&](int c) { return points.weight(p, c); });
 }
 
-/// The same with the weights' absolute values, which are not all positive where the point is
-/// outside.
+/// Returns the sum of |weight| * x over the four vertices of point p's tetrahedron. Where the point
+/// is outside of it, some weights are negative.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_parts_at(const Transfer<B>& points,
                                                               const Vectors<B>& x, int p) {
@@ -173,8 +173,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_parts_at(const Transfer<B>&
   return sum;
 }
 
-// ---- of whole fields, compiled once in vectors.cpp
-// ----------------------------------------------------------------------
+// ---- of whole fields, compiled once in vectors.cpp -----------------------------------------
 
 namespace vectors {
 
@@ -190,49 +189,49 @@ void convert(const Exec& exec, const char* label, std::size_t count, const From*
 
 }  // namespace vectors
 
-/// y += a x, number by number, of fields of one kind.
+/// Adds a x to y, number by number; both are fields of one kind.
 template <class B, class View>
 void add(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x,
          const View& y) {
   vectors::add<B>(exec, label, y.span(), a, x.data(), y.data());
 }
-/// out = a x + b y, number by number; out may be one of them.
+/// Computes out = a x + b y, number by number; out may be one of them.
 template <class B, class View, class Number = typename View::value_type>
 void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x,
              typename B::Real b, const View& y, const View& out) {
   vectors::combine<B>(exec, label, out.span(), a, x.data(), b, y.data(), out.data());
 }
-/// The same for displacements and velocities.
+/// Computes out = a x + b y for displacements and velocities.
 template <class B>
 void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const State<B>& x,
              typename B::Real b, const State<B>& y, const State<B>& out) {
   combine<B>(exec, label, a, x.u, b, y.u, out.u);
   combine<B>(exec, label, a, x.v, b, y.v, out.v);
 }
-/// x = a x
+/// Multiplies x by a.
 template <class B, class View>
 void scale(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x) {
   combine<B>(exec, label, a, x, typename B::Real(0), x, x);
 }
-/// The same values in another precision.
+/// Converts the values of a field to another precision.
 template <class Exec, class From, class To>
 void convert(const Exec& exec, const char* label, const From& from, const To& to) {
   vectors::convert(exec, label, to.span(),
                    static_cast<const typename From::value_type*>(from.data()), to.data());
 }
 
-/// out = a x + b y at vertices that forces move; the others keep theirs.
+/// Computes out = a x + b y at vertices that forces move; the other vertices keep their values.
 template <class B>
 void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                   typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
                   const Vectors<B>& out);
-/// out = a m x + b y at vertices that forces move, 0 at the others; m their masses.
+/// Computes out = a m x + b y at vertices that forces move, 0 at the others; m: their masses.
 template <class B>
 void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model,
            typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
            const Vectors<B>& out);
 
-/// x . y at a vertex, in double.
+/// Product x . y at a vertex, in double.
 template <class B>
 struct Dot {
   Vectors<B> x, y;
@@ -242,16 +241,16 @@ struct Dot {
     return {{sum}};
   }
 };
-/// result(0) = x . y, in double.
+/// Computes result(0) = x . y, in double.
 template <class B>
 void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const Vectors<B>& y,
          const BlockSums<B>& blocks, const Doubles<B>& result);
-/// result(0) = the sum of the x components.
+/// Computes result(0) = the sum of the x components.
 template <class B>
 void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x,
                const BlockSums<B>& blocks, const Doubles<B>& result);
-/// A start vector with a part in every mode: a hash of the index, in [-1, 1); 0 where the inverse
-/// mass is. result(0) = x . x.
+/// Fills x with a start vector that has a part in every mode, and computes result(0) = x . x. Its
+/// numbers are a hash of the index, in [-1, 1); they are 0 where the inverse mass is 0.
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                     const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result);

@@ -8,18 +8,19 @@ namespace plica {
 
 namespace {
 
-// Outward of a tetrahedron whose vertex 3 lies on the side of (1-0)x(2-0)
+// Corners of the faces, counter-clockwise seen from outside; face k is across from corner k. Vertex
+// 3 of the tetrahedron lies on the side of (1-0)x(2-0).
 constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct Face {
-  std::array<int, 2> others;  // its vertices but the lowest, ascending: the same from both sides
+  std::array<int, 2> others;  // the two higher vertices, ascending: equal from both sides
   std::size_t number;         // 4 * tetrahedron + corner across
 };
 
-// Calls visit(its faces, ascending by number) for every three vertices that tetrahedra have a face
-// of. Put beside each other by the lowest vertex by counting, then sorted for each vertex: several
-// times faster than one sort of all
+// Calls visit(faces) for every three vertices that form a face. `faces` are those of the tetrahedra
+// there, ascending by number. Faces are grouped by their lowest vertex with a counting sort, then
+// sorted for each vertex: several times faster than one sort of all.
 template <class Visit>
 void for_faces(const TetMesh& mesh, const Visit& visit) {
   std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
@@ -42,7 +43,7 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
     const auto first = faces.begin() + static_cast<std::ptrdiff_t>(start[v]);
     const auto last = faces.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
     std::sort(first, last, [](const Face& a, const Face& b) {
-      // the same order everywhere
+      // a strict order, so that the result is equal on every machine
       return a.others != b.others ? a.others < b.others : a.number < b.number;
     });
     for (auto face = first; face != last;) {
@@ -54,8 +55,8 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
   }
 }
 
-/// Whether a face's vertices, counter-clockwise seen from outside its tetrahedron, are an even
-/// permutation of the ascending ones.
+/// Returns whether the outward order of a face's vertices is an even permutation of the ascending
+/// one. The outward order is counter-clockwise seen from outside the tetrahedron.
 bool is_even(const TetMesh& mesh, const Face& face) {
   const auto& tet = mesh.tets[face.number / 4];
   const auto& [i, j, k] = outward_faces[face.number % 4];
@@ -124,7 +125,8 @@ double surface_area(const TriangleSurface& surface) {
 
 double enclosed_volume(const TriangleSurface& surface) {
   if (surface.vertices.empty()) return 0.0;
-  const Point& origin = surface.vertices.front();  // any point; a near one keeps the terms small
+  // The origin may be any point; a near one keeps the terms small
+  const Point& origin = surface.vertices.front();
   double sum = 0.0;
   for (const auto& [a, b, c] : surface.triangles)
     sum += tet_volume(origin, vertex(surface, a), vertex(surface, b), vertex(surface, c));
@@ -132,7 +134,7 @@ double enclosed_volume(const TriangleSurface& surface) {
 }
 
 void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
-  // ascending; whether the triangle runs so
+  // vertices of each edge, ascending; true where the triangle has them in this order
   std::vector<std::pair<std::array<int, 2>, bool>> edges;
   edges.reserve(surface.triangles.size() * 3);
   for (const std::array<int, 3>& t : surface.triangles)

@@ -16,11 +16,12 @@ namespace {
 struct Crossing {
   std::size_t line;
   double z;
-  int turns;  // 1: into the body, upwards; -1: out of it
+  int turns;  // change of the winding number, upwards; 1: into the body; -1: out of it
 };
 
-// Seen from above: twice the area of an edge and the line, positive to the edge's left. It is
-// computed from the lower vertex to the higher one, so that both triangles at an edge get the same.
+// Side of an edge on which a line is, seen from above. `area` is twice the area of the triangle of
+// the edge and the line, positive to the edge's left. It is computed from the lower vertex to the
+// higher one, so that both triangles at an edge get one value.
 struct Side {
   double area;
   bool left;
@@ -33,7 +34,7 @@ Side side_of(const TriangleSurface& surface, int from, int to, double x, double 
   return from < to ? Side{area, area >= 0} : Side{-area, area < 0};
 }
 
-// Calls visit(i, j) for the lines that a triangle is over or under, by its box
+// Calls visit(i, j) for the lines that pass through a triangle's bounding box
 template <class Visit>
 void for_lines(const std::array<const Point*, 3>& t, const Point& low, double spacing,
                const std::array<int, 2>& counts, const Visit& visit) {
@@ -98,14 +99,14 @@ InsideLines::InsideLines(const TriangleSurface& surface, const Point& low, doubl
 
 namespace {
 
-constexpr double counted_part = 0.02;  // of a cell
+constexpr double counted_part = 0.02;  // relative to the volume of a cell
 
 double common(const InsideLines::Interval& a, const InsideLines::Interval& b) {
   return std::max(0.0, std::min(a.to, b.to) - std::max(a.from, b.from));
 }
 
-// Where a line along z is in a tetrahedron: where none of its barycentric weights, linear in z, is
-// below zero
+// Returns the interval of a line along z that is in a tetrahedron of the unit cell. There none of
+// the barycentric weights, which are linear in z, is below zero.
 InsideLines::Interval along(double x, double y, const std::array<Point, 4>& corners) {
   InsideLines::Interval inside{0, 1};
   const Weights low = barycentric({x, y, 0}, corners), high = barycentric({x, y, 1}, corners);
@@ -160,7 +161,8 @@ CellContents::Contents CellContents::of(int i, int j, int k) const {
   return contents;
 }
 
-// Pieces of neighbouring lines hang together where they have a height in common
+// Returns the number of connected parts. Pieces of neighbouring lines are connected where their
+// intervals overlap.
 int CellContents::parts_of(std::vector<Piece> pieces) {
   const auto part_of = [&](std::size_t p) {
     while (pieces[p].part != p) p = pieces[p].part = pieces[pieces[p].part].part;
@@ -173,7 +175,7 @@ int CellContents::parts_of(std::vector<Piece> pieces) {
       if (beside && common(pieces[p].along, pieces[q].along) > 0)
         pieces[part_of(p)].part = part_of(q);
     }
-  std::map<std::size_t, double> volume;  // of a part, in cells
+  std::map<std::size_t, double> volume;  // volume of each part over that of a cell
   for (std::size_t p = 0; p < pieces.size(); ++p)
     volume[part_of(p)] += (pieces[p].along.to - pieces[p].along.from) / (lines * lines);
   int parts = 0;

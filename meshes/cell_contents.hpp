@@ -7,24 +7,24 @@
 
 namespace plica {
 
-/// Where lines along z are inside a closed surface, exactly but for rounding. A point is inside
-/// where the surface winds about it: parts that overlap are one body, and a surface inside another
-/// that looks inwards encloses a hole. Of two triangles that meet at an edge one has the edge's
-/// points, so that no line slips through between them.
+/// Intervals of lines along z that are inside a closed surface, exact to rounding. A point is
+/// inside if the winding number of the surface around it is above zero. Parts that overlap are
+/// therefore one body, and an inner surface that looks inwards encloses a hole. The points of an
+/// edge belong to one of the two triangles that meet there, so that no line passes between them.
 class InsideLines {
  public:
-  /// Of a line, along z [m].
+  /// Interval of a line along z [m].
   struct Interval {
     double from, to;
   };
 
-  /// The lines are at low + ((i + 1/2) spacing, (j + 1/2) spacing).
+  /// Intersects the surface with lines at low + ((i + 1/2) spacing, (j + 1/2) spacing).
   /// @param surface  closed, counter-clockwise seen from outside
-  /// @param counts   of lines along x and y
+  /// @param counts   numbers of lines along x and y
   InsideLines(const TriangleSurface& surface, const Point& low, double spacing,
               const std::array<int, 2>& counts);
 
-  /// The inside of a line, upwards.
+  /// Returns the intervals of line (i, j) that are inside, upwards.
   std::span<const Interval> at(int i, int j) const {
     const auto line = static_cast<std::size_t>(j) * static_cast<std::size_t>(counts_[0]) +
                       static_cast<std::size_t>(i);
@@ -37,31 +37,35 @@ class InsideLines {
   std::vector<Interval> intervals_;
 };
 
-/// What of a lattice's cells a body fills. Each cell is cut into six tetrahedra as box_mesh() has
-/// them, and looked at along 8 x 8 lines.
+/// Fractions of a lattice's cells that a body fills. Each cell is cut into the six tetrahedra of
+/// box_mesh(), and sampled along 8 x 8 lines.
 class CellContents {
  public:
-  static constexpr int lines = 8;  ///< along a cell's edge
+  static constexpr int lines = 8;  ///< number of lines along a cell's edge
 
+  /// Filling of one cell.
   struct Contents {
-    std::array<double, 6> filled = {};  ///< the body's part of each tetrahedron
-    /// of the body, not connected in the cell; those of less than a fiftieth of it do not count
+    std::array<double, 6> filled = {};  ///< fraction of each tetrahedron that is body [1]
+    /// number of parts of the body that are not connected within the cell; a part counts if it
+    /// fills more than a fiftieth of the cell
     int parts = 0;
   };
 
-  /// @param low   the lattice's lowest corner [m]
-  /// @param size  of its cells [m]
+  /// Intersects the surface with the lines of all cells.
+  /// @param low   lowest corner of the lattice [m]
+  /// @param size  edge length of the cells [m]
   CellContents(const TriangleSurface& surface, const Point& low, double size,
                const std::array<int, 3>& cells);
 
+  /// Returns the filling of cell (i, j, k).
   Contents of(int i, int j, int k) const;
 
  private:
   using Interval = InsideLines::Interval;
   struct Piece {
-    int i, j;  // its line in the cell
+    int i, j;  // line of the cell
     Interval along;
-    std::size_t part;  // the number of a piece that it hangs together with, at last the part's own
+    std::size_t part;  // number of a connected piece (union-find; the root names the part)
   };
   static int parts_of(std::vector<Piece> pieces);
 
@@ -69,11 +73,11 @@ class CellContents {
   double size_;
   InsideLines inside_;
   struct Line {
-    std::array<Interval, 6> tets;  // along it, of 1
-    double weight;                 // a line in a face is in two tetrahedra
+    std::array<Interval, 6> tets;  // interval in each tetrahedron, in the unit cell
+    double weight;                 // below 1 for a line in a face: it is in two tetrahedra
   };
-  std::array<Line, static_cast<std::size_t>(lines* lines)> lines_;  // of a cell
-  std::array<double, 6> whole_ = {};                                // sums over them
+  std::array<Line, static_cast<std::size_t>(lines* lines)> lines_;  // lines of one cell
+  std::array<double, 6> whole_ = {};  // weighted length of all lines in each tetrahedron
 };
 
 }  // namespace plica

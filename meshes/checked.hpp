@@ -5,17 +5,18 @@
 
 namespace plica {
 
-/// `value` when it is finite and above zero; else an InputError "WHAT is VALUE; it must be ...".
+/// Returns `value` if it is finite and above zero; else throws an InputError "WHAT is VALUE; it
+/// must be ...".
 double checked_size(const std::string& what, double value);
 
-/// `point` when its three coordinates are finite; else an InputError.
+/// Returns `point` if its three coordinates are finite; else throws an InputError.
 Point checked_point(const std::string& what, const Point& point);
 
-/// `cells` when it is at least 1; else an InputError.
+/// Returns `cells` if it is at least 1; else throws an InputError.
 int checked_cells(const std::string& what, int cells);
 
-/// Refuses what an int cannot number, before anything of that size is allocated. The count is a
-/// double, as the product of counts may not fit an integer.
+/// Throws an InputError if `count` is too large for an int, before anything of that size is
+/// allocated. The count is a double, as the product of counts may not fit an integer.
 void checked_count(const std::string& what, double count);
 
 }  // namespace plica

@@ -9,10 +9,10 @@ namespace plica {
 
 namespace {
 
-using Loop = std::vector<int>;  // points, in the order in which the triangles beside them go
+using Loop = std::vector<int>;  // points, in the direction of the edges of the triangles beside
 
-/// The open edges, one after the other. Where more than two meet in a point, what begins there is
-/// left out.
+/// Returns the loops of open edges. Where several open edges start at a point, none of them is
+/// used.
 std::vector<Loop> open_loops(const TriangleSurface& surface) {
   std::map<std::array<int, 2>, int> uses;
   for (const auto& t : surface.triangles)

@@ -4,9 +4,10 @@
 
 namespace plica {
 
-/// Closes the holes of a surface that are narrower than `width` [m] in the mean, each by triangles
-/// from its edges to their middle: a slit that a CAD program left, a sliver that is missing.
-/// Returns how many. Wider ones stay.
+/// Closes the holes of a surface that are narrower than `width` [m] in the mean. Triangles go from
+/// the edges of a hole to the middle of its points. Such holes are slits that a CAD program left,
+/// or missing slivers. Wider holes stay.
+/// @return the number of holes that were closed
 int close_slits(TriangleSurface& surface, double width);
 
 }  // namespace plica

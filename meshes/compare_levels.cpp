@@ -10,11 +10,11 @@ namespace {
 
 struct Limits {
   double length, volume;  // ratios
-  double shift;           // of the extent
+  double shift;           // shift of the centroid over the extent
 };
 constexpr Limits doubtful = {1.05, 1.25, 0.03}, wrong = {2, 4, 0.25};
 
-// How many times larger or smaller, from 1
+// Returns the ratio of the larger to the smaller number, 1 or more
 double factor(double a, double b) { return a > 0 && b > 0 ? std::max(a / b, b / a) : 1; }
 
 Point extent(const MeshSize& size) { return size.box.max - size.box.min; }
@@ -44,7 +44,8 @@ std::string measures(const MeshSize& size) {
               number(c[0], 4), ", ", number(c[1], 4), ", ", number(c[2], 4), "]");
 }
 
-// The unit of a mesh file without a scale, where the ratio of the lengths is about a power of ten
+// Returns the end of the sentence, with the likely cause. A ratio of the lengths of about 100 or
+// 1000 means that a file is in cm or mm and has no scale.
 std::string likely_cause(const MeshSize& finest, const MeshSize& coarse, std::size_t level) {
   const double ratio = extent(coarse).norm() / extent(finest).norm();
   const auto said = [](std::size_t of, double scale, const char* unit) {

@@ -13,8 +13,8 @@ namespace plica {
 
 namespace {
 
-// Weights of the nearest point of a triangle. Names: ab_p is the product of edge ab with the way
-// from a to p.
+// Returns the weights of the nearest point of a triangle. Names: ab_p is the dot product of edge ab
+// with the vector from a to p; q and r stand for p relative to b and c.
 std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b,
                                           const Point& c) {
   const Point ab = b - a, ac = c - a;
@@ -57,7 +57,7 @@ Weights barycentric(const Point& p, const std::array<Point, 4>& corners) {
 }
 
 bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x) {
-  for (int k = 0; k < 3; ++k) {  // most are beside it
+  for (int k = 0; k < 3; ++k) {  // a quick test by the bounding box rejects most points
     const auto [least, most] =
         std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
     if (x[k] < least || x[k] > most) return false;
@@ -72,7 +72,7 @@ Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
   Weights best = own;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < 4; ++f) {
-    if (own[f] >= 0.0) continue;  // p is on the inner side: another face is nearer
+    if (own[f] >= 0.0) continue;  // p is on the inner side of this face: another one is nearer
     const auto& [i, j, k] = faces[f];
     const std::array<double, 3> t = nearest_in_triangle(p, corners[i], corners[j], corners[k]);
     Weights candidate = {};
@@ -84,7 +84,7 @@ Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
 }
 
 Point weighted(const Weights& weights, const std::array<Point, 4>& corners) {
-  // From corner 0, as coordinates far from the origin would round more than the edges do
+  // Sum relative to corner 0: coordinates far from the origin would round more than the edges do
   return corners[0] + weights[1] * (corners[1] - corners[0]) +
          weights[2] * (corners[2] - corners[0]) + weights[3] * (corners[3] - corners[0]);
 }
@@ -103,15 +103,16 @@ namespace {
 
 using Volume = Eigen::AlignedBox3d;
 
-constexpr double inside_tolerance = 1e-9;  // of an edge
-constexpr double tie_tolerance = 1e-9;     // of the distance
-constexpr double farthest = 1e100;         // products of distances still fit a double
+constexpr double inside_tolerance = 1e-9;  // relative to an edge
+constexpr double tie_tolerance = 1e-9;     // relative to the squared distance
+constexpr double farthest = 1e100;         // [m], so that products of distances fit a double
 
 double smallest(const Weights& weights) {
   return *std::min_element(weights.begin(), weights.end());
 }
 
-// Keeps the tetrahedron with the largest smallest weight; done when that is not negative
+// Visitor that keeps the tetrahedron whose smallest weight is the largest. The search ends when
+// this weight is not negative.
 struct Containing {
   const TetMesh& mesh;
   const Point& p;
@@ -146,7 +147,7 @@ struct Nearest {
   }
 };
 
-// Among all as near as the nearest, the one extrapolated least
+// Visitor that finds, among the equally near tetrahedra, the one with the least extrapolation
 struct LeastExtrapolated {
   const TetMesh& mesh;
   const Point& p;
@@ -208,7 +209,8 @@ namespace {
 
 constexpr double lowest_weight = -0.5;
 
-// Of a point inside: what rounding left below zero is cut off, the rest made to sum to 1 again
+// Returns the weights of a point inside without errors of rounding: negative ones are set to zero,
+// and all are scaled to sum to 1
 Weights cut(Weights weights) {
   double sum = 0.0;
   for (double& w : weights) sum += w = std::max(w, 0.0);
@@ -216,8 +218,8 @@ Weights cut(Weights weights) {
   return weights;
 }
 
-// Pulled towards the centroid (weights 1/4) until no weight is below the bound: all linear in the
-// pull
+// Moves the weights towards those of the centroid (1/4 each) until none is below `lowest_weight`.
+// Returns whether that was necessary. Each weight is linear in the move.
 bool hold(Weights& weights) {
   const double least = *std::min_element(weights.begin(), weights.end());
   if (least >= lowest_weight) return false;

@@ -10,37 +10,37 @@ namespace plica {
 /// Weights of the four corners of a tetrahedron; they sum to 1.
 using Weights = std::array<double, 4>;
 
-/// The weights that make up `p`, negative on the far side of a face.
+/// Returns the barycentric weights of `p`, negative on the far side of a face.
 /// @param p        [m]
-/// @param corners  of a tetrahedron with positive volume [m]
+/// @param corners  corners of a tetrahedron with positive volume [m]
 Weights barycentric(const Point& p, const std::array<Point, 4>& corners);
-/// Whether x is in a tetrahedron, its faces included.
+/// Returns whether x is in a tetrahedron, its faces included.
 bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x);
 
-/// The weights of the point of the tetrahedron that is nearest to `p`, none below zero; those of
-/// `p` when it is inside. A triangle's nearest point after C. Ericson, Real-Time Collision
-/// Detection (2005), section 5.1.5.
+/// Returns the weights of the point of the tetrahedron that is nearest to `p`. They are those of
+/// `p` if it is inside; none is below zero. Nearest point of a triangle: C. Ericson, Real-Time
+/// Collision Detection (2005), section 5.1.5.
 Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners);
 
-/// The point with these weights. [m]
+/// Returns the point with these weights [m].
 Point weighted(const Weights& weights, const std::array<Point, 4>& corners);
 
-/// The corners of one tetrahedron of a mesh. [m]
+/// Returns the corners of one tetrahedron of a mesh [m].
 std::array<Point, 4> corners_of(const TetMesh& mesh, int tet);
 
-/// Where a point is in a mesh.
+/// Location of a point in a mesh.
 struct Located {
-  int tet = -1;           ///< that contains it, or the nearest one
+  int tet = -1;           ///< tetrahedron that contains the point, or the nearest one
   Weights weights = {};   ///< barycentric, unclamped: outside some are negative
-  double distance = 0.0;  ///< to that tetrahedron, 0 inside [m]
+  double distance = 0.0;  ///< distance to that tetrahedron, 0 inside [m]
 };
 
-/// Finds the tetrahedron that contains a point, or the nearest one, by a tree of bounding boxes
-/// (Eigen's KdBVH).
+/// Search for the tetrahedron that contains a point, or the nearest one, in a tree of bounding
+/// boxes (Eigen's KdBVH).
 ///
-/// A point counts as inside up to 1e-9 of an edge beyond a face. Of several nearest tetrahedra (a
-/// point that faces an edge or a corner) it takes the one that is extrapolated least, then the
-/// first: never a matter of the tree's order.
+/// A point counts as inside up to 1e-9 of an edge beyond a face. Several tetrahedra are nearest to
+/// a point that faces an edge or a corner. Among them the one with the least extrapolation is
+/// chosen, then the one with the lowest number. The choice thus never depends on the tree's order.
 class TetLocator {
  public:
   /// Keeps a reference to `mesh`, which must have a tetrahedron (InputError) and outlive the
@@ -48,13 +48,13 @@ class TetLocator {
   explicit TetLocator(const TetMesh& mesh);
   explicit TetLocator(TetMesh&&) = delete;
   ~TetLocator();
-  TetLocator(TetLocator&&) noexcept;             ///< takes over the tree
-  TetLocator& operator=(TetLocator&&) noexcept;  ///< likewise
+  TetLocator(TetLocator&&) noexcept;             ///< moves the tree
+  TetLocator& operator=(TetLocator&&) noexcept;  ///< moves the tree
 
-  /// InputError for a point that is not finite, or beyond 1e100 m.
+  /// Returns the location of a point; throws an InputError if it is not finite or beyond 1e100 m.
   Located locate(const Point& point) const;
 
-  /// The mesh it was made for.
+  /// Returns the mesh that points are located in.
   const TetMesh& mesh() const { return *mesh_; }
 
  private:
@@ -63,35 +63,36 @@ class TetLocator {
   std::unique_ptr<Tree> tree_;
 };
 
-/// What becomes of a point outside every tetrahedron.
+/// Treatment of a point outside every tetrahedron.
 enum class Outside {
-  clamp,        ///< it moves with the nearest point of the mesh: no weight below zero
-  extrapolate,  ///< it continues the nearest tetrahedron, each weight held at -0.5 or above
-  keep          ///< it has no counterpart: a row of zero weights, for the caller to leave out
+  clamp,        ///< the point moves with the nearest point of the mesh: no weight below zero
+  extrapolate,  ///< extrapolation of the nearest tetrahedron, each weight limited to -0.5 or above
+  keep          ///< the row has zero weights: the caller leaves the point out
 };
 
 /// Points embedded in a mesh: one row per point, value(point) = sum over k of weights[k] *
 /// value(vertices[k]).
 ///
-/// Rows sum to 1 (but kept ones), so translations are exact; linear fields are exact inside to
-/// rounding and, unless a weight was held, where extrapolated.
+/// Rows sum to 1, except the zero rows of Outside::keep, so translations are exact. Linear fields
+/// are exact to rounding inside, and outside where they are extrapolated without a limited weight.
 struct Embedding {
-  std::vector<std::array<int, 4>> vertices;  ///< of the tetrahedron, also in kept rows
-  std::vector<Weights> weights;              ///< of these vertices
-  std::vector<char> outside;                 ///< 1 for a miss
-  int misses = 0;                            ///< points outside
-  int held = 0;                              ///< misses whose weights were held back (extrapolate)
-  /// of a miss to the mesh, over the mean edge of its tetrahedron
+  std::vector<std::array<int, 4>> vertices;  ///< vertices of the tetrahedron, also in zero rows
+  std::vector<Weights> weights;              ///< weights of these vertices [1]
+  std::vector<char> outside;                 ///< 1 for a point outside
+  int misses = 0;                            ///< number of points outside
+  int held = 0;  ///< number of points with limited weights (extrapolate)
+  /// largest distance of a point outside, over the mean edge of its tetrahedron [1]
   double largest_distance_over_edge = 0.0;
 };
 
+/// Embeds points in the mesh of a locator.
 /// @param points   finite [m]; InputError otherwise, with the point's index
-/// @param locator  of the mesh; build it once when several sets of points are embedded in the same
-/// mesh
-/// @param outside  what becomes of points outside it
+/// @param locator  locator of the mesh; build it once when several sets of points are embedded in
+/// the same mesh
+/// @param outside  treatment of points outside the mesh
 Embedding embed(const std::vector<Point>& points, const TetLocator& locator, Outside outside);
 
-/// The same with a locator of its own.
+/// Embeds points in a mesh, with a locator that is built for this call.
 Embedding embed(const std::vector<Point>& points, const TetMesh& mesh, Outside outside);
 
 }  // namespace plica

@@ -11,8 +11,8 @@
 namespace plica {
 
 Point rounded(const Point& p) {
-  // The cube at the centre, relative to the ball. Found by trial: 0.57 to 0.9 give sound meshes,
-  // 0.8 the best ones.
+  // Scale of the cube at the centre, relative to the ball. Found by trial: 0.57 to 0.9 give sound
+  // meshes, 0.8 the best ones.
   constexpr double core = 0.8;
   const double shell = p.lpNorm<Eigen::Infinity>();
   if (shell == 0.0) return Point::Zero();
@@ -37,8 +37,8 @@ void for_each(const Index& counts, Visit visit) {
       for (int i = 0; i < counts[0]; ++i) visit(Index{i, j, k});
 }
 
-// The six ways along the edges of a cell from one end of its diagonal to the other; `even` ones
-// turn right-handed
+// Path along the edges of a cell from one end of its diagonal to the other: one of six. `even`: the
+// order of the axes is an even permutation, and the path turns right-handed.
 struct Walk {
   Index axes;
   bool even;
@@ -125,7 +125,8 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// Radius 1; the corners are the cyclic permutations of (0, +-1, +-golden ratio)
+// Returns an icosahedron of radius 1. Its corners are the cyclic permutations of (0, +-1, +-golden
+// ratio), scaled to length 1.
 TriangleSurface icosahedron() {
   constexpr double g = std::numbers::phi;
   TriangleSurface surface;
@@ -139,7 +140,7 @@ TriangleSurface icosahedron() {
   return surface;
 }
 
-// Each triangle in four, the middles of the edges pushed out to radius 1
+// Cuts each triangle into four, with the middles of the edges moved out to radius 1
 void subdivide(TriangleSurface& surface) {
   std::unordered_map<std::uint64_t, int> middles;
   middles.reserve(surface.triangles.size() * 3 / 2);

@@ -12,8 +12,8 @@ namespace plica {
 
 namespace {
 
-constexpr double least_volume = 0.1;     // of what a tetrahedron had
-constexpr double same_direction = 1e-6;  // of unit vectors
+constexpr double least_volume = 0.1;     // relative to a tetrahedron's volume before
+constexpr double same_direction = 1e-6;  // distance of unit vectors
 constexpr int most_halvings = 20;
 
 std::vector<double> shortest_edges(const TetMesh& mesh) {
@@ -26,7 +26,7 @@ std::vector<double> shortest_edges(const TetMesh& mesh) {
   return shortest;
 }
 
-// The faces that have to stay: the boundary of the body and those of its regions
+// Returns the faces that must keep their planes: the boundaries of the body and of its regions
 std::vector<std::array<int, 3>> kept_faces(const TetMesh& mesh) {
   std::vector<std::array<int, 3>> faces = boundary_triangles(mesh);
   const std::set<int> regions(mesh.region.begin(), mesh.region.end());
@@ -41,7 +41,7 @@ std::vector<std::array<int, 3>> kept_faces(const TetMesh& mesh) {
   return faces;
 }
 
-// Where a vertex may go: the directions that are in none of its faces' normals
+// Directions in which a vertex may move: those orthogonal to the normals of its kept faces
 class Freedom {
  public:
   void keep(const Point& normal) {
@@ -69,7 +69,8 @@ std::vector<Freedom> freedoms(const TetMesh& mesh) {
 }
 
 std::vector<Point> moves_of(const TetMesh& mesh, double amount, unsigned seed) {
-  std::mt19937 random(seed);  // its numbers are the standard's, unlike those of the distributions
+  // The C++ standard fixes the numbers of this generator, but not those of its distributions
+  std::mt19937 random(seed);
   const auto within = [&random] {
     return 2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.0;
   };

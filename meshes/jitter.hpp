@@ -4,16 +4,16 @@
 
 namespace plica {
 
-/// The same body on an irregular mesh: every vertex is moved at random, along each axis by up to
-/// `amount` of the shortest edge that meets there. Vertices of the boundary, and of faces between
-/// regions, move within all the planes of their faces: flat faces, straight edges and corners stay.
-/// Where a tetrahedron would lose more than nine tenths of its volume, its vertices go half as far,
-/// and so on.
+/// Returns a body on an irregular mesh: every vertex is moved at random. Along each axis it moves
+/// by up to `amount` of the shortest edge that meets there. Vertices of the boundary, and of faces
+/// between regions, move only within the planes of all their faces. Flat faces, straight edges and
+/// corners therefore stay. The moves of a tetrahedron's vertices are halved until it keeps a tenth
+/// of its volume.
 ///
 /// @param mesh    the body
 /// @param amount  in [0, 0.5); InputError otherwise
-/// @param seed    the same moves for the same seed on every machine
-/// @return        the same tetrahedra, regions and sets
+/// @param seed    seed of the random numbers; equal seeds give equal moves on every machine
+/// @return        the mesh with moved vertices; tetrahedra, regions and sets do not change
 TetMesh jittered(TetMesh mesh, double amount, unsigned seed = 1);
 
 }  // namespace plica

@@ -17,14 +17,14 @@ namespace plica {
 namespace {
 
 constexpr double most_cells = 8e6;
-// of a cube's edge: a face that only touches a cube is not in it
+// Scale of a cube in the overlap test: a face that only touches a cube is not in it
 constexpr double inner_part = 1 - 1e-6;
 constexpr int fewest_vertices = 30;
-constexpr double least_part = 0.02;  // of a tetrahedron that is body
+constexpr double least_part = 0.02;  // least fraction of a tetrahedron that is body
 
-// Whether a triangle reaches into a cube around the origin with edges of 2 half: no plane of 13
-// keeps them apart (Akenine-Moeller, Fast 3D triangle-box overlap testing, Journal of Graphics
-// Tools 6, 2001)
+// Returns whether a triangle reaches into a cube around the origin with edges of 2 `half`. It does
+// if none of 13 planes separates them (Akenine-Moeller, Fast 3D triangle-box overlap testing,
+// Journal of Graphics Tools 6, 2001).
 bool reaches_into(const std::array<Point, 3>& t, double half) {
   const auto apart = [&](const Point& axis) {
     const double a = t[0].dot(axis), b = t[1].dot(axis), c = t[2].dot(axis),
@@ -100,7 +100,8 @@ class Lattice {
     }
   }
 
-  // Neighbours that the surface does not reach into are on one side of it
+  // Keeps the cells that are inside or that the surface reaches into. Two neighbours that the
+  // surface does not reach into are on one side of it: only the first one is tested.
   void fill(const std::function<bool(const Point&)>& inside) {
     kept_ = marked_;
     for_cells([&](int i, int j, int k) {
@@ -111,9 +112,9 @@ class Lattice {
     });
   }
 
-  // The body's part of each tetrahedron of mesh(), without cells that are all but empty: what hangs
-  // on them alone would turn inside out long before the body does. Counts the cells that hold
-  // several parts of the body
+  // Returns the fraction of each tetrahedron of mesh() that is body, and drops almost empty cells.
+  // An element that is connected to such a cell only would turn inside out long before the body
+  // does. Adds the number of cells with several parts of the body to `shared`.
   std::vector<double> filled(const TriangleSurface& surface, int& shared) {
     const CellContents contents(surface, low_, size_, cells_);
     std::vector<double> parts;
@@ -122,12 +123,13 @@ class Lattice {
       if (!kept_[c]) return;
       if (!marked_[c]) return void(parts.insert(parts.end(), 6, 1.0));
       const CellContents::Contents here = contents.of(i, j, k);
-      double whole = 0, above = 0;  // of the cell; above what each gets at least
+      // sum over the cell's tetrahedra, and of the fractions above the least one
+      double whole = 0, above = 0;
       for (const double part : here.filled)
         whole += part, above += std::max(part - least_part, 0.0);
       kept_[c] = whole > 6 * least_part;
       if (!kept_[c]) return;
-      for (const double part : here.filled)  // the cell's whole is kept
+      for (const double part : here.filled)  // the sum over the cell stays
         parts.push_back(std::min(
             1.0, least_part + std::max(part - least_part, 0.0) * (whole - 6 * least_part) / above));
       shared += here.parts > 1;
@@ -135,7 +137,7 @@ class Lattice {
     return parts;
   }
 
-  // Six tetrahedra of each cell that is kept, cell after cell
+  // Returns the six tetrahedra of each cell that is kept, cell after cell
   TetMesh mesh() const {
     const TetMesh box =
         box_mesh({low_, low_ + size_ * Point(cells_[0], cells_[1], cells_[2])}, cells_);
@@ -174,7 +176,8 @@ class Lattice {
   double size_;
   std::array<int, 3> cells_;
   Point low_;
-  std::vector<bool> marked_, kept_;  // the surface reaches into it; it has tetrahedra
+  // per cell: whether the surface reaches into it; whether it has tetrahedra
+  std::vector<bool> marked_, kept_;
 };
 
 }  // namespace
@@ -238,7 +241,8 @@ TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {
       continue;
     }
     const std::array<Point, 4> corners = corners_of(best, static_cast<int>(t));
-    Box cube = bounding_box({corners.begin(), corners.end()});  // each of the six spans all of it
+    // Each of the six tetrahedra of a cube has the cube as its bounding box
+    Box cube = bounding_box({corners.begin(), corners.end()});
     best.region.push_back(
         mesh.region[static_cast<std::size_t>(locator.locate((cube.min + cube.max) / 2).tet)]);
   }

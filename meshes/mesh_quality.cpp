@@ -22,8 +22,8 @@ double length(const TetMesh& mesh, int a, int b) {
       .norm();
 }
 
-// Sorted by the lower vertex by counting, then within each vertex: several times faster than one
-// sort of all
+// Returns the edges, sorted. A counting sort by the lower vertex, then a sort within each vertex,
+// is several times faster than one sort of all.
 template <std::size_t corners>
 std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, corners>>& cells,
                                          std::size_t vertices) {
@@ -93,7 +93,7 @@ namespace {
 
 using Volume = Eigen::AlignedBox3d;
 
-// The lowest vertex known to be of the same part, paths halved on the way
+// Returns the lowest vertex known to be of v's part (union-find); paths are halved on the way
 int root(std::vector<int>& parent, int v) {
   const auto at = [&](int i) -> int& { return parent[static_cast<std::size_t>(i)]; };
   while (at(v) != v) v = at(v) = at(at(v));
@@ -177,10 +177,10 @@ int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
 namespace {
 
 constexpr std::size_t worst_count = 10;
-constexpr double duplicate_tolerance = 1e-9;  // of the mean edge
+constexpr double duplicate_tolerance = 1e-9;  // relative to the mean edge
 
-// The angles between the faces at the six edges [degree], from the outward area vectors of the
-// faces across each corner
+// Returns the angles between the faces at the six edges [degree]. `areas`: outward area vectors of
+// the faces across each corner.
 std::array<double, 6> dihedral_angles(const std::array<Point, 4>& areas) {
   std::array<double, 6> angles;
   std::size_t n = 0;
@@ -192,7 +192,7 @@ std::array<double, 6> dihedral_angles(const std::array<Point, 4>& areas) {
   return angles;
 }
 
-// Outward, as long as the area of the face across corner k
+// Returns for each corner the outward area vector of the face across it [m^2]
 std::array<Point, 4> face_areas(const std::array<Point, 4>& c) {
   const auto area = [&](const Point& p, const Point& q, const Point& r) -> Point {
     return (q - p).cross(r - p) / 2.0;
@@ -219,7 +219,7 @@ Shape shape_of(const TetMesh& mesh, int tet) {
   TetShape& s = shape.summary;
   s.tet = tet;
   s.volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
-  // the smallest height stands on the largest face
+  // The smallest height stands on the largest face
   s.height_ratio = longest * largest_face / (3.0 * s.volume);
   const auto [least, most] = std::minmax_element(shape.angles.begin(), shape.angles.end());
   s.smallest_angle = *least, s.largest_angle = *most;

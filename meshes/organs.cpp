@@ -13,11 +13,12 @@ namespace plica {
 
 namespace {
 
-constexpr double inclusion = 0.5;  // of the cube's half edge
+constexpr double inclusion = 0.5;  // half edge of the inclusion over that of the cube
 
-// Carries the unit ball to a lump with x in [-1, 1]. First the inside moves towards the thick end,
-// the surface stays: 1 - 2 s.p > 0. Then y depends on x and y, and z on x and z only, each growing
-// with its own coordinate: orientation stays too.
+// Maps the unit ball to a lump with x in [-1, 1]. First the inside moves towards the thick end, and
+// the surface stays; the determinant, 1 - 2 s.p with the shift s at the centre, is above 0. Then y
+// depends on x and y only, and z on x and z only. Each grows with its own coordinate, so that the
+// orientation stays.
 Point lump(const Point& ball) {
   const Point p = ball + (1 - ball.squaredNorm()) * Point(-0.25, 0, 0);
   return {p.x(), 0.7 * p.y() * (1 - 0.2 * p.x()),
@@ -35,7 +36,7 @@ TetMesh blob_mesh(const Point& centre, double length, int cells) {
   TetMesh mesh = ball_mesh(Point::Zero(), 1, cells);
   mesh.region_names = {"tissue", "inclusion"};
   mesh.region.reserve(mesh.tets.size());
-  // six tetrahedra per cell
+  // Cells [first, last) along each axis are the inclusion; each has six tetrahedra
   const int first = static_cast<int>((1 - inclusion) / 2 * cells), last = cells - first;
   const auto inside = [&](int at) { return first <= at && at < last; };
   for (int k = 0; k < cells; ++k)
@@ -65,12 +66,13 @@ void check(const Tube& t) {
                           " rad, and not back"));
 }
 
-// From radius, angle and length along the axis, each in [0, 1]: right-handed
+// Returns the point at a radius, an angle and a length along the axis, each scaled to [0, 1]. The
+// map keeps the orientation.
 Point on_tube(const Tube& t, const Point& unit) {
   const double r = t.radius + t.wall * unit.x(), angle = 2 * std::numbers::pi * unit.y();
   const double turned = t.bend * unit.z(), side = r * std::cos(angle), y = r * std::sin(angle);
-  // The circle's radius is length / bend: its chord by functions that have a limit where there is
-  // no bend
+  // The circle's radius is length / bend. The chord is written with sin(x)/x, which has a limit
+  // where there is no bend.
   const double half = std::sin(turned / 2), arc = t.length * unit.z();
   const double sinc = turned > 0 ? half / (turned / 2) : 1;
   const Point axis(arc * sinc * half, 0, arc * sinc * std::cos(turned / 2));
@@ -83,7 +85,8 @@ TetMesh tube_mesh(const Tube& tube) {
   check(tube);
   TetMesh mesh = grid_mesh({tube.across, tube.around, tube.along}, {false, false, false},
                            [&](const Point& unit) { return on_tube(tube, unit); });
-  // The last vertices around are the first ones. Cells are all cut alike, so that their faces fit.
+  // The last vertices around become the first ones. Their faces fit, as all cells are cut in one
+  // way.
   const int across = tube.across + 1, around = tube.around + 1;
   std::vector<int> place(mesh.vertices.size());
   std::vector<Point> vertices;

@@ -13,8 +13,8 @@ namespace plica {
 
 namespace {
 
-constexpr double as_short = 1e-9;    // of a squared length
-constexpr double same_place = 1e-6;  // of an edge
+constexpr double as_short = 1e-9;    // relative difference of squared lengths
+constexpr double same_place = 1e-6;  // relative to an edge
 constexpr double same_volume = 1e-9;
 
 std::uint64_t edge_key(int a, int b) {
@@ -22,13 +22,12 @@ std::uint64_t edge_key(int a, int b) {
   return (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high);
 }
 
-// The middles of a tetrahedron's edges, by the places of their ends
+// Middles of the edges of a tetrahedron: mij is between corners i and j
 enum Middle : std::size_t { m01, m02, m03, m12, m13, m23 };
 constexpr std::array<std::array<std::size_t, 2>, 6> ends = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-// A diagonal of the octahedron, and the other four corners in the order in which they surround it:
-// right-handed
+// Diagonal of the octahedron, and the other four corners in right-handed order around it
 struct Diagonal {
   Middle from, to;
   std::array<Middle, 4> ring;
@@ -123,7 +122,7 @@ class Refinement {
   const TetMesh& mesh_;
   TetMesh finer_;
   std::unordered_map<std::uint64_t, int> middles_;
-  std::vector<std::array<int, 2>> edges_;  // of the middles, in their order
+  std::vector<std::array<int, 2>> edges_;  // ends of the edge of each middle
 };
 
 double volume(const TetMesh& mesh) {

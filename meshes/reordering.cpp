@@ -11,7 +11,7 @@ namespace {
 
 constexpr int bits = 21;  // per axis: 63 in all
 
-// From a cell of the cube with 2^21 cells along an edge to its number on the Hilbert curve (J.
+// Returns the number on the Hilbert curve of a cell of the cube with 2^21 cells along an edge (J.
 // Skilling: Programming the Hilbert curve. AIP Conf. Proc. 707, 2004)
 std::uint64_t hilbert_number(std::array<std::uint32_t, 3> x) {
   for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
@@ -77,7 +77,8 @@ Reordering locality_order(const TetMesh& mesh) {
   };
   for (const int t : order.tets)
     for (const int v : mesh.tets[static_cast<std::size_t>(t)]) take(v);
-  for (std::size_t v = 0; v < taken.size(); ++v) take(static_cast<int>(v));  // of no tetrahedron
+  // vertices of no tetrahedron come last
+  for (std::size_t v = 0; v < taken.size(); ++v) take(static_cast<int>(v));
   return order;
 }
 

@@ -5,23 +5,25 @@
 
 namespace plica {
 
-/// An order of vertices and tetrahedra: per new number the old one.
+/// New order of vertices and tetrahedra: per new number the old one.
 struct Reordering {
-  std::vector<int> vertices;  ///< old numbers
-  std::vector<int> tets;      ///< old numbers
+  std::vector<int> vertices;  ///< per new vertex its old number
+  std::vector<int> tets;      ///< per new tetrahedron its old number
 };
 
-/// Neighbours in space become neighbours in memory: tetrahedra along a Hilbert curve through their
-/// centroids, vertices as these first use them. The same for the same mesh on every machine.
+/// Returns an order in which neighbours in space are neighbours in memory. Tetrahedra follow a
+/// Hilbert curve through their centroids; vertices come in the order in which these tetrahedra
+/// first use them. The order of a mesh is equal on every machine.
 Reordering locality_order(const TetMesh& mesh);
 
-/// The way back: per old number the new one.
+/// Returns the inverse order: per old number the new one.
 Reordering inverse(const Reordering& order);
 
-/// The mesh in another order; what was numbered per vertex or tetrahedron goes along by permuted().
+/// Returns the mesh in another order. Other data per vertex or tetrahedron are reordered by
+/// permuted().
 TetMesh reordered(const TetMesh& mesh, const Reordering& order);
 
-/// Per new number the value of the old one; nothing stays nothing.
+/// Returns per new number the value of the old one; an empty vector stays empty.
 template <typename Value>
 std::vector<Value> permuted(const std::vector<Value>& values, const std::vector<int>& order) {
   std::vector<Value> result;
@@ -31,8 +33,8 @@ std::vector<Value> permuted(const std::vector<Value>& values, const std::vector<
   return result;
 }
 
-/// The mean over all tetrahedra of the difference of their largest and smallest vertex number: what
-/// locality_order() makes small.
+/// Returns the mean over all tetrahedra of their largest minus their smallest vertex number. The
+/// order of locality_order() makes it small.
 double mean_vertex_span(const TetMesh& mesh);
 
 }  // namespace plica

@@ -13,7 +13,7 @@ namespace plica {
 
 namespace {
 
-// Keeps the tetrahedra that `keep` says, with their regions and numbers
+// Drops the tetrahedra for which keep(t) is false, with their regions, numbers and vectors
 template <class Keep>
 void filter(TetMesh& mesh, std::vector<int>& numbers, const Keep& keep) {
   std::size_t kept = 0;
@@ -29,10 +29,10 @@ void filter(TetMesh& mesh, std::vector<int>& numbers, const Keep& keep) {
   for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
 }
 
-constexpr double sliver = 8;  // height ratio
+constexpr double sliver = 8;  // elements with a height ratio above this are improved
 constexpr int rounds = 8;
-constexpr double gain = 0.95;  // a step must make the worst element around it better by that
-constexpr std::array<double, 4> fractions = {1, 0.5, 0.25, 0.1};  // of a step that are tried
+constexpr double gain = 0.95;  // a step must multiply the worst ratio around it by less than this
+constexpr std::array<double, 4> fractions = {1, 0.5, 0.25, 0.1};  // tried fractions of a step
 
 class Improver {
  public:
@@ -46,7 +46,7 @@ class Improver {
     hold();
   }
 
-  // Whether anything became better
+  // Tries to improve each sliver once; returns whether any became better
   bool round() {
     bool any = false;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
@@ -54,7 +54,7 @@ class Improver {
     return any;
   }
 
-  std::vector<char> alive;  // per tetrahedron
+  std::vector<char> alive;  // per tetrahedron, 0: dropped by a collapse
   Improvement done;
 
  private:
@@ -102,7 +102,8 @@ class Improver {
     return sum / count;
   }
 
-  // To where the height over the face across is half the mean edge of that face
+  // Returns the position of v moved normally to the face across. Its height is then sqrt(2 area) /
+  // 2, about half the mean edge of that face.
   Point away(int v, const std::array<int, 4>& corners) {
     std::vector<Point> face;
     for (const int other : corners)
@@ -126,8 +127,9 @@ class Improver {
     return false;
   }
 
-  // The elements around an inner vertex fill the same space from any point that sees all of their
-  // outer faces
+  // Merges vertex v into `to` if all elements around it become better; returns whether it did. The
+  // elements around an inner vertex fill an unchanged space from any point that sees all of their
+  // outer faces.
   bool collapse(int v, int to) {
     const double before = worst_around(v);
     for (const int t : star(v)) {
@@ -166,7 +168,7 @@ double height_ratio(const TetMesh& mesh, const std::array<int, 4>& tet) {
   };
   const double volume = tet_volume(at(0), at(1), at(2), at(3));
   if (!(volume > 0)) return std::numeric_limits<double>::infinity();
-  double longest = 0, largest = 0;  // edge and twice the area of a face
+  double longest = 0, largest = 0;  // longest edge, and twice the area of the largest face
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) % 4, k = (i + 2) % 4;
     largest = std::max(largest, (at(j) - at(i)).cross(at(k) - at(i)).norm());
@@ -187,7 +189,7 @@ Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers) {
 
 namespace {
 
-constexpr double thin = 20;  // height ratio
+constexpr double thin = 20;  // slivers with a height ratio above this are peeled off
 constexpr int most_rounds = 10;
 
 using Edge = std::array<int, 2>;
@@ -211,10 +213,11 @@ class Peeler {
     std::sort(faces_.begin(), faces_.end()), std::sort(edges_.begin(), edges_.end());
   }
 
-  // Neighbours wait for the next round, which sees what this one does
+  // Returns whether the sliver is to be dropped. The neighbours of a dropped sliver wait for the
+  // next round, which has the new boundary.
   bool peels(const std::array<int, 4>& tet) {
     if (!(height_ratio(mesh_, tet) > thin)) return false;
-    std::vector<int> ends;  // corners across from faces of the boundary
+    std::vector<int> ends;  // corners whose faces across are on the boundary
     for (std::size_t k = 0; k < 4; ++k) {
       const std::array<int, 3> face =
           sorted<3>({tet[(k + 1) % 4], tet[(k + 2) % 4], tet[(k + 3) % 4]});
@@ -251,8 +254,8 @@ int peel_slivers(TetMesh& mesh, std::vector<int>& numbers) {
 
 namespace {
 
-constexpr double same_place = 1e-6;  // of the mean edge
-constexpr double loose_part = 0.01;  // of the volume
+constexpr double same_place = 1e-6;  // relative to the mean edge
+constexpr double loose_part = 0.01;  // relative to the volume of the mesh
 constexpr double flat_ratio = 1e8;   // height ratio that counts as no volume
 
 double tet_volume_of(const TetMesh& mesh, const std::array<int, 4>& tet) {
@@ -262,8 +265,8 @@ double tet_volume_of(const TetMesh& mesh, const std::array<int, 4>& tet) {
   return tet_volume(at(0), at(1), at(2), at(3));
 }
 
-// Tetrahedra name the first of the vertices at a place; those that lose a corner by that, or repeat
-// another, are dropped
+// Replaces vertices at one place by the first of them. Tetrahedra that thus lose a corner, or
+// repeat another one, are dropped.
 void merge(MeshRepair& repair) {
   TetMesh& mesh = repair.mesh;
   const std::vector<int> twins = lower_twins(mesh.vertices, same_place * mean_edge_length(mesh));
@@ -307,7 +310,8 @@ double worst_of(const TetMesh& mesh) {
   return worst;
 }
 
-// Vertices of no tetrahedron go, from the sets too; a set gets the vertices that its own became
+// Drops vertices of no tetrahedron, also from the sets, and renumbers the rest. A set gets the
+// vertices that its old vertices were merged into.
 void renumber(MeshRepair& repair) {
   TetMesh& mesh = repair.mesh;
   std::vector<int> number(mesh.vertices.size(), -1);

@@ -12,15 +12,15 @@ namespace plica {
 namespace {
 
 using Volume = Eigen::AlignedBox3d;
-// of a triangle's vertices 0 1 2, its edges 01 12 20, and its face
+// Normals at a triangle's vertices 0 1 2, at its edges 01 12 20, and of its face
 using Normals = std::array<Point, 7>;
 
 struct Closest {
   Point point;
-  std::size_t feature;  // as in Normals
+  std::size_t feature;  // index in Normals
 };
 
-// By Voronoi region (Ericson, Real-Time Collision Detection, 5.1.5)
+// Finds the closest point by Voronoi regions (Ericson, Real-Time Collision Detection, 5.1.5)
 Closest closest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -74,14 +74,14 @@ struct Nearest {
   using Scalar = double;
   const TriangleSurface& surface;
   const Point& p;
-  double reach;  // squared
+  double reach;  // squared bound of the distance [m^2]
   int triangle = -1;
   Closest closest = {};
   double least = std::numeric_limits<double>::infinity();
 
   double minimumOnVolume(const Volume& box) const {
     const double d = box.squaredExteriorDistance(p);
-    // the search leaves out what is not below that
+    // the search skips boxes whose minimum is not below the largest double
     return d <= reach ? d : std::numeric_limits<double>::max();
   }
   double minimumOnObject(int candidate) {
@@ -120,7 +120,7 @@ SignedDistance::~SignedDistance() = default;
 double SignedDistance::operator()(const Point& point, double bound) const {
   Nearest nearest{tree_->surface, point, bound * bound * (1 + 1e-9)};
   Eigen::BVMinimize(tree_->boxes, nearest);
-  // a bound that was not one, by a rounding
+  // The given bound was too small by rounding: search without one
   if (nearest.least > nearest.reach) return (*this)(point);
   const Point& normal =
       tree_->normals[static_cast<std::size_t>(nearest.triangle)][nearest.closest.feature];

@@ -6,18 +6,20 @@
 
 namespace plica {
 
-/// The signed distance to a closed surface, exact: to the nearest triangle found in a tree of
-/// bounding boxes (Eigen's KdBVH), with the sign of the angle-weighted normal of its nearest face,
-/// edge or vertex (Baerentzen & Aanaes, Signed distance computation using the angle weighted
+/// Exact signed distance to a closed surface. The nearest triangle is found in a tree of bounding
+/// boxes (Eigen's KdBVH). The sign comes from the angle-weighted normal of the nearest face, edge
+/// or vertex (Baerentzen & Aanaes, Signed distance computation using the angle weighted
 /// pseudonormal, IEEE TVCG 11, 2005).
 class SignedDistance {
  public:
-  /// Keeps a reference to `surface`: closed, counter-clockwise seen from outside, outliving this.
+  /// Keeps a reference to `surface`, which must outlive this. It is closed, and its triangles are
+  /// counter-clockwise seen from outside.
   explicit SignedDistance(const TriangleSurface& surface);
   explicit SignedDistance(TriangleSurface&&) = delete;
   ~SignedDistance();
 
-  /// [m], below zero inside. `bound`: a distance the point is known to be within, to search less.
+  /// Returns the signed distance of a point [m], below zero inside.
+  /// @param bound  known upper bound of the unsigned distance, for a shorter search [m]
   double operator()(const Point& point,
                     double bound = std::numeric_limits<double>::infinity()) const;
 

@@ -5,11 +5,12 @@
 
 namespace plica {
 
-/// Of a linear element's shape functions, and its volume of body.
+/// Gradients of the shape functions of a linear element, and the volume of body in it.
 struct TetGradients {
-  Eigen::Matrix<double, 4, 3> gradient;
-  double volume;
+  Eigen::Matrix<double, 4, 3> gradient;  ///< per corner [1/m]
+  double volume;                         ///< volume times TetMesh::part() [m^3]
 
+  /// Computes the gradients and the volume of element e.
   TetGradients(const TetMesh& mesh, std::size_t e) {
     const auto& tet = mesh.tets[e];
     Eigen::Matrix3d edges;

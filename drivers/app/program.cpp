@@ -19,7 +19,7 @@
 namespace plica::app {
 namespace {
 
-// The command line, and what it asks for. CLI11 fills the members while it parses.
+// Command line and the arguments that it gives. CLI11 fills the members while it parses.
 class CommandLine {
  public:
   CommandLine() {
@@ -47,7 +47,7 @@ class CommandLine {
     add_completion();
   }
 
-  /// Throws CLI::ParseError for what it cannot read, --help and --version.
+  /// Runs the command. Throws CLI::ParseError for bad words, --help and --version.
   ExitStatus execute(std::vector<std::string> words) {
     arguments_.words = words;
     const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
@@ -56,7 +56,7 @@ class CommandLine {
     std::erase_if(words, is_kokkos);
     if (words.size() > 1 && words[1] == "help") words[1] = "--help";
     check_command(words);
-    // CLI11 takes them from the back
+    // CLI11 takes the words in reverse order
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
     for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
     if (!duration_.empty())
@@ -85,8 +85,8 @@ class CommandLine {
     return command;
   }
 
-  /// What CLI11 says; of an unknown option the nearest one, and where a command is missing all that
-  /// there are.
+  /// Returns CLI11's error message. For an unknown option it names the nearest one instead, and for
+  /// a missing command all commands.
   static std::string fault_of_words(const CLI::App* app, const CLI::Error& error) {
     const std::vector<std::string> extra = app->remaining(true);
     std::string text = error.what(), command = app->get_name();
@@ -180,7 +180,7 @@ class CommandLine {
                                             "folder for the files (" + otherwise + ")"));
   }
 
-  /// Nothing, as of a variable of the shell that is not set, is no folder.
+  /// Makes an option take a folder. Refuses an empty text, such as an unset variable of the shell.
   static CLI::Option* takes_folder(CLI::Option* option) {
     return option->type_name("FOLDER")->check([](const std::string& text) {
       return std::string(text.empty() ? "expected a folder, got ''" : "");
@@ -412,7 +412,7 @@ ExitStatus guarded(const std::vector<std::string>& words) {
 }  // namespace
 
 int program(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of sizes: its write fails and says so
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails with an error
   ExitStatus status = guarded({argv, argv + argc});
   if (!std::cout.flush() && status == ExitStatus::done)
     status = failed("cannot write the standard output", ExitStatus::failed);

@@ -3,8 +3,8 @@
 
 namespace plica::app {
 
-/// The program plica: reads the command line, does what it says, and returns the exit status
-/// (commands/commands.hpp).
+/// Runs the program plica: reads the command line, does what it says, and returns the exit status
+/// (ExitStatus in commands/commands.hpp).
 int program(int argc, char** argv);
 
 }  // namespace plica::app

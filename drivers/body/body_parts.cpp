@@ -11,9 +11,9 @@ namespace plica {
 
 namespace {
 
-constexpr double bearable_overlap = 0.05;  // of an edge
+constexpr double bearable_overlap = 0.05;  // part of an edge
 
-/// Per region of the mesh its part.
+/// Returns the part of each region of the mesh.
 std::vector<std::size_t> parts_of_regions(const TetMesh& mesh, const std::vector<BodyPart>& parts) {
   std::vector<std::size_t> list;
   for (const std::string& region : mesh.region_names) {
@@ -30,7 +30,7 @@ std::size_t part_of_tet(const TetMesh& mesh, const std::vector<std::size_t>& of_
   return of_region[static_cast<std::size_t>(mesh.region[e])];
 }
 
-/// The triangles of one part's points, numbered from its first.
+/// Returns the triangles of one part; its points are numbered from its first.
 TriangleSurface surface_of_part(const TriangleSurface& surface, int first, int points) {
   TriangleSurface one;
   one.vertices.assign(surface.vertices.begin() + first, surface.vertices.begin() + first + points);
@@ -134,7 +134,8 @@ void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& p
     const TriangleSurface one = surface_of_part(surface, first, parts[i].points);
     const Box box = bounding_box(one.vertices);
     const SignedDistance distance(one);
-    // and a little below it: of two bodies in one place all points are on the other's surface
+    // The depth of a point, or of one a little below it: where two bodies are in the same place,
+    // all points of one are on the surface of the other.
     const auto depth_at = [&](std::size_t p) {
       return std::max(-distance(surface.vertices[p]), -distance(surface.vertices[p] - below[p]));
     };

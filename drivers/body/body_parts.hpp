@@ -6,38 +6,40 @@
 #include <string>
 #include <vector>
 
-// Several bodies in one: who is whose. Parts without number stand for one body, and lists of them
-// are empty then.
+// Several bodies in one: which vertices and points belong to which body (part). Where there is one
+// body, the list of parts is empty, and so are the lists of part numbers.
 namespace plica {
 
-/// Per vertex of a level its part.
+/// Returns the part of each vertex of a level.
 std::vector<int> parts_of_vertices(const TetMesh& mesh, const std::vector<BodyPart>& parts);
-/// Per point of the surface its part.
+/// Returns the part of each point of the surface.
 std::vector<int> parts_of_points(const std::vector<BodyPart>& parts);
 
-/// Finds points in a level's mesh, each in its own body, however near another one is.
+/// Finds points in a level's mesh, each in its own body, even if another body is nearer.
 class BodyLocator {
  public:
-  /// Keeps a reference to the mesh where it is one body.
+  /// Builds a tree for each part. Keeps a reference to the mesh where it is one body.
   BodyLocator(const TetMesh& mesh, const std::vector<BodyPart>& parts);
 
-  /// As embed(); `part`: of each point, as above.
+  /// Embeds points in the mesh, each in the body of its part. `part`: part of each point; empty:
+  /// there is one body.
   Embedding embed(const std::vector<Point>& points, const std::vector<int>& part,
                   Outside outside) const;
-  double distance(const Point& point) const;  ///< to the nearest of its elements [m]
-  double mean_edge(std::size_t part) const;   ///< [m]
+  double distance(const Point& point) const;  ///< distance to the nearest element [m]
+  double mean_edge(std::size_t part) const;   ///< mean edge length of a part [m]
 
  private:
   struct One {
-    std::unique_ptr<TetMesh> mesh;  ///< its own; none: the whole one
-    std::vector<int> vertex;        ///< of each of these its number in the whole
+    std::unique_ptr<TetMesh> mesh;  ///< mesh of the part; none: the whole mesh
+    std::vector<int> vertex;        ///< number of each of its vertices in the whole mesh
     std::unique_ptr<TetLocator> locator;
   };
   std::vector<One> parts_;
 };
 
-/// InputError where a point of one body's surface is inside another's by more than contact lets it,
-/// with the deepest such point. `edge`: mean, of the finest level [m].
+/// Throws InputError where a point of one body's surface is deeper inside another's than contact
+/// allows. The message has the deepest such point. `edge`: mean edge length of the finest level
+/// [m].
 void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& parts, double edge);
 
 }  // namespace plica

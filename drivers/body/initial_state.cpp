@@ -13,7 +13,7 @@ bool starts_deformed(const InitialOptions& o) {
 std::vector<Point> initial_displacement(const InitialOptions& o, const TetMesh& mesh,
                                         const Box& box) {
   std::mt19937_64 random(static_cast<std::uint64_t>(o.random.value_or(0)));
-  // the library's own distributions differ from one to the next
+  // not a distribution of the standard library: these differ from one library to the next
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const Point middle = 0.5 * (box.min + box.max);
   std::vector<Point> u;

@@ -6,27 +6,28 @@
 
 namespace plica {
 
-/// Whether a body starts in another shape than that of its rest.
+/// Returns whether a body starts in another shape than that at rest.
 bool starts_deformed(const InitialOptions& options);
 
-/// Where the body's rest mesh is at the start: its translation. [m]
+/// Returns the translation of the body's rest mesh at the start [m].
 Point placement_of(const Body& body);
 
-/// The points of a body's surface as they are placed; none where it has no surface.
+/// Returns the points of a body's surface where they are placed [m]; none where it has no surface.
 std::vector<Point> places_at_start(const Body& body);
 
-/// Per vertex of level 0 at rest, before it is placed, as if all were free: its displacement at the
-/// start [m]. `box` is that mesh's bounding box. The same seed gives the same places everywhere,
-/// vertex by vertex.
+/// Returns the displacement of each vertex of level 0 at the start [m], as if all were free. `mesh`
+/// is at rest, before it is placed, and `box` is its bounding box. The same seed gives the same
+/// places everywhere, vertex by vertex.
 std::vector<Point> initial_displacement(const InitialOptions& options, const TetMesh& mesh,
                                         const Box& box);
 
-/// What is to be said of elements that start flat or inside out, empty where there are none: how
-/// many, the worst, its J.
+/// Returns a sentence about elements that start flat or inside out: how many, the worst, its J.
+/// Empty where there are none.
 std::string inverted_at_start(const TetMesh& mesh, const std::vector<Point>& displacement);
 
-/// Per vertex of level 0 at rest, before it is placed, as if all were free [m/s]; `middle` is the
-/// point its angular velocity is about. Throws InputError where a part has no vertex.
+/// Returns the velocity of each vertex of level 0 at the start [m/s], as if all were free. `mesh`
+/// is at rest, before it is placed; the angular velocity is about `middle`. Throws InputError where
+/// a part has no vertex.
 std::vector<Point> initial_velocity(const InitialOptions& options, const TetMesh& mesh,
                                     const Point& middle);
 

@@ -8,21 +8,22 @@
 
 namespace plica {
 
-/// Per region of a mesh its density [kg/m^3]; one entry where it names none.
+/// Returns the density of each region of a mesh [kg/m^3]; one entry where it names none.
 std::vector<double> region_densities(const Body& body, const TetMesh& mesh);
 
-/// Per vertex a quarter of the mass of each of its tetrahedra [kg].
+/// Returns the mass of each vertex: a quarter of the mass of each of its tetrahedra [kg].
 std::vector<double> lumped_masses(const TetMesh& mesh, const std::vector<double>& density);
 
-/// Masses of a coarse level's vertices, restricted from the finer level: m = P^T m_fine. A vertex
-/// that gets none keeps the mass of its own elements (`own`), and all are scaled to the total.
-/// `without`: how many such vertices there are. `up`: the finer vertices in the coarse mesh,
-/// without negative weights.
+/// Returns the masses of a coarse level's vertices, restricted from the finer level: m = P^T
+/// m_fine. A vertex that gets none keeps the mass of its own elements (`own`), and all are scaled
+/// to the total.
+/// @param up       embedding of the finer vertices in the coarse mesh, without negative weights
+/// @param without  number of vertices that get no mass from the finer level
 std::vector<double> inherited_masses(const Embedding& up, const std::vector<double>& fine,
                                      const std::vector<double>& own, int& without);
 
-/// The adjoint of `up`. A coarse vertex without a finer one in its elements averages the finer
-/// element it lies in (`down`).
+/// Builds the adjoint of `up`. A coarse vertex without a finer one in its elements averages the
+/// finer element it lies in (`down`).
 template <class B>
 Restriction<B> build_restriction(const Embedding& up, const std::vector<double>& fine,
                                  const Embedding& down);

@@ -16,7 +16,7 @@ std::string coordinates(const Point& p) {
 /// Chooses among points: the vertices, or the elements' centroids.
 struct Among {
   const std::vector<Point>& points;
-  double slack;  // a face is chosen by its own coordinates
+  double slack;  // tolerance [m]: a face is chosen by its own coordinates
 
   template <class Inside>
   std::vector<int> where(const Inside& inside) const {
@@ -61,7 +61,8 @@ std::string described(const Selection& selection) {
   return "the plane at " + coordinates(half.point) + " m with normal " + coordinates(half.normal);
 }
 
-/// `what` is chosen among, of what reaches over `all` so.
+/// Returns the points that a selection chooses. For messages, `what` names a point, `all` is the
+/// box that the points reach over, and `when` says when they do.
 std::vector<int> select(const std::vector<Point>& points, const Selection& selection,
                         const std::string& option, const std::string& what, const Box& all,
                         const std::string& when) {
@@ -85,7 +86,8 @@ const std::string* name_in(const Selection& selection) {
   return region ? &region->name : nullptr;
 }
 
-/// The number of the region of that name; with `sets`, the mesh's vertex sets count as choices too.
+/// Returns the number of the region of that name. With `sets`, the message about an unknown name
+/// lists the mesh's vertex sets too.
 int region_named(const TetMesh& mesh, const std::string& name, const Selecting& who, bool sets) {
   const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
   if (region != mesh.region_names.end() && !name.empty())

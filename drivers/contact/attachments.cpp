@@ -15,7 +15,7 @@ namespace plica {
 
 namespace {
 
-/// The triangles of one body, to find the nearest of.
+/// Triangles of one body, searched for the place nearest to a point.
 class PartTriangles {
  public:
   PartTriangles(const TriangleSurface& surface, const std::vector<int>& part, int body)
@@ -25,8 +25,9 @@ class PartTriangles {
         own_.push_back(static_cast<int>(t));
   }
 
-  /// The place of the surface that is nearest to a point, and the distance to it [m]; what is
-  /// further than `within` is not looked at.
+  /// Returns the distance from a point to the nearest place on the triangles [m].
+  /// That place goes to `place`. Triangles further away than `within` [m] are skipped: where all
+  /// are, the result is `within` and `place` stays.
   double nearest(const Point& x, double within, AttachedPoint& place) const {
     double least = within;
     for (const int t : own_) {

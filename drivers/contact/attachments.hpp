@@ -6,14 +6,16 @@
 
 namespace plica {
 
-/// A point of the surface, and the place on a triangle of it that it is attached to.
+/// Point of the surface that is attached to a place on one of the surface's triangles.
 struct AttachedPoint {
+  /// number of the point in the surface, of the attachment in the options, of the triangle
   int point, attachment, triangle;
-  std::array<double, 3> weight;  ///< of the triangle's corners
+  std::array<double, 3> weight;  ///< barycentric weights of the triangle's corners
 };
 
-/// The points of all attachments, where the placed surface starts. InputError where one holds no
-/// point, with the distance of the nearest, and where two hold one point.
+/// Returns the points of all attachments, found where the placed surface starts.
+/// Throws InputError where an attachment has no point, with the distance of the nearest one [m],
+/// and where two attachments have the same point.
 std::vector<AttachedPoint> attached_points(const std::vector<AttachmentOptions>& attachments,
                                            const TriangleSurface& surface,
                                            const std::vector<BodyPart>& parts);

@@ -6,12 +6,14 @@
 
 namespace plica {
 
-/// Rows for every target whose `keep` is not set; a row of zero weights counts as kept too.
+/// Returns one row of weights for each target whose `keep` is not set.
+/// A target whose weights are zero gets no row either, and so keeps its own value.
 template <class B>
 Transfer<B> build_transfer(const std::string& name, const Embedding& embedding,
                            const std::vector<char>& keep);
 
-/// A surface's points in one level, with the transpose in gather form.
+/// Returns the interpolation of a surface's points from one level's vertices, and its transpose in
+/// gather form.
 template <class B>
 EmbeddedSurface<B> build_surface(const TriangleSurface& surface, const Embedding& embedding);
 

@@ -15,15 +15,16 @@ namespace plica {
 
 namespace {
 
-// Over the layer of elements under the surface: what keeps a body visibly outside.
+// Contact stiffness over that of the layer of elements under the surface. A body then stays visibly
+// outside an obstacle.
 constexpr double stiffening = 64;
 
-// In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool
-// that is pressed in by its radius spreads the points under it and comes between them, however fine
-// the mesh is.
+// Radius from which on an obstacle touches points only, over the mean edge of the surface. A
+// smaller tool that is pressed in by its radius spreads the points under it and comes between them,
+// however fine the mesh is.
 constexpr double wide = 16;
 
-constexpr double pair_reach = 0.5, pair_margin = 0.25;  // of an edge
+constexpr double pair_reach = 0.5, pair_margin = 0.25;  // lengths over the mean edge
 
 template <class Use>
 void each_side(const TriangleSurface& surface, const Use& use) {
@@ -79,7 +80,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
              options.bodies, options.self};
 }
 
-/// | tools with mass | what obstacles hold | attached points that are torn |
+/// Makes the memory: | tools with mass | grasped points | attached points that are torn |
 template <class B>
 void Contact<B>::make_memory(const ContactOptions& options) {
   const auto& all = options.obstacles;
@@ -129,9 +130,10 @@ int Contact<B>::whole() const {
   return static_cast<int>(std::count(whole_.begin(), whole_.end(), true));
 }
 
-/// Laws of obstacles and bodies, of what obstacles hold, of pairs of bodies, of attachments. What
-/// gives way is the layer of elements under the surface, with an area A for each point: E A / h. Of
-/// two bodies both layers, in series, with the smaller area.
+/// Makes the laws of obstacles and bodies, of grasped points, of pairs of bodies, of attachments.
+/// The stiffness of a law is a multiple of E A / h: the layer of elements under the surface, of
+/// thickness h, with an area A for each point. For a pair of bodies the two layers are in series,
+/// with the smaller area.
 template <class B>
 void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of) {
   struct Layer {
@@ -153,7 +155,7 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     layers.push_back({area[b] / std::max(points[b], 1.0), of.parts[b].edge,
                       stiffness_at_rest(*of.parts[b].material), of.parts[b].material->density});
   const double scale = stiffening * options.stiffness_scale;
-  // 2 * 0.5 sqrt(k m)
+  // damping of ratio 0.5: 2 * 0.5 sqrt(k m)
   const auto critical = [](double k, double mass) { return std::sqrt(k * mass); };
   const auto law = [&](double k, double mass, const std::optional<double>& friction) {
     ContactLaw<Real> made;
@@ -234,7 +236,8 @@ void Contact<B>::attach(const TouchingSurface& of) {
   attached_.weight = to_device<Vectors<B>>("contact.attached_weight", weight);
 }
 
-/// The surface's triangles, and those around each point: for pairs, for thin obstacles.
+/// Copies the triangles and the triangles around each point to the device.
+/// Pairs and obstacles that touch between points need them.
 template <class B>
 void Contact<B>::connect(const TriangleSurface& surface) {
   std::vector<std::vector<int>> around(surface.vertices.size());
@@ -255,11 +258,11 @@ void Contact<B>::connect(const TriangleSurface& surface) {
   if (pairs_) connect_edges(surface);
 }
 
-/// Edges in the order of their ends, the end with the lower number first.
+/// Copies the edges to the device, sorted by their ends; the end with the lower number is first.
 template <class B>
 void Contact<B>::connect_edges(const TriangleSurface& surface) {
   struct Edge {
-    // left and right of the way from its first end to the second
+    // third corners of the triangles left and right of the way from its first end to the second
     std::array<int, 2> opposite{-1, -1};
     int number = 0;
   };
@@ -326,7 +329,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   if (pairs_)
     records.partner = to_device<Indices<B>>(
         "contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
-  // a record has at most as many entries as its points have vertices
+  // a record has at most as many entries as its points have vertices of weight other than 0
   std::vector<int> place(static_cast<std::size_t>(vertices), -1);
   const auto touched = host_values(Exec(), surface.vertex);
   for (std::size_t i = 0; i < touched.size(); ++i)

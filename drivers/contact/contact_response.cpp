@@ -11,12 +11,12 @@ namespace plica {
 
 namespace {
 
-// After the one that finds rho and the forces by e alone. With the lumped masses' inverse they cost
-// little, and two bodies that meet fast need them; with that of `him` each one is an application of
-// it.
+// Sweeps after the first one, which finds rho and the forces from e alone. With the inverse of
+// lumped masses a sweep costs little, and two bodies that meet fast need these sweeps. With the
+// inverse mass of `him` each sweep costs one application of it.
 constexpr int sweeps_of_masses = 7, sweeps_of_him = 3;
 
-/// As in a whole macro step, of which this one is a part.
+/// Returns the whole macro step of which `step` is a part: all its times divided by `part`.
 ContactStep of_whole_step(const ContactStep& step, double part) {
   return {step.span / part, step.ahead / part, step.damped / part, step.ends};
 }
@@ -50,7 +50,7 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
   if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
 }
 
-/// The records of a state, listed.
+/// Finds and lists the records of a state, and stores that they belong to `time`.
 template <class B>
 void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state,
                               double time) {
@@ -68,7 +68,8 @@ void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const Sta
   list_contacts<B>(exec, level.surface, records_, maker_);
 }
 
-/// The records at the level's state; where no step has been taken yet, they are found.
+/// Returns the records for use at the level's state, and the time since they were found.
+/// Where no step has been taken yet, they are found first.
 template <class B>
 RecordLater<B> ContactResponse<B>::later(const Exec& exec, const Level<B>& level,
                                          double time) const {
@@ -101,8 +102,8 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
     end(exec, "plica::contact_stretch", StretchContact<B>{contact, static_cast<Real>(given.span)});
 }
 
-/// The last kernel of a step, which says what friction has done; where there is none, nobody adds
-/// that up.
+/// Launches the last kernel of a step, and adds the work of friction that it returns to `work_`.
+/// Without friction the work is not summed.
 template <class B>
 template <class End>
 void ContactResponse<B>::end(const Exec& exec, const char* label, const End& kernel) const {
@@ -280,7 +281,7 @@ void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level,
   end(exec, "plica::contact_end", EndContact<B>{at(level, state, 0)});
 }
 
-/// f += factor W^T of the last forces
+/// Adds the last forces to the vertices: f += factor W^T F.
 template <class B>
 void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
                                  double factor) const {
@@ -326,7 +327,7 @@ std::size_t ContactResponse<B>::bytes() const {
   return all;
 }
 
-// --- What a step takes from the last ---
+// --- Values that are carried from step to step ---------------------------------------------------
 
 template <class B>
 template <class Use>

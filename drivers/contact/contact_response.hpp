@@ -21,109 +21,114 @@ struct ExplicitContact;
 template <class B>
 struct ImplicitContact;
 
-/// How an implicit stage takes contact, which acts over the whole step h: in a stage of weights a,
-/// b the contact's impulse is h F, and its way is that to the end of the step.
+/// Times and factors of contact in an implicit stage. Contact acts over the whole step h.
+/// In a stage of weights a, b the impulse of contact is h F. The way of a record is that to the end
+/// of the step.
 struct ContactStage {
   double span = 0;    ///< h [s]
-  double factor = 1;  ///< of contact's forces in the stage: h / b where they are not carried on
-  double scale = 1;   ///< of ways, from the stage to the end of the step
+  double factor = 1;  ///< scales contact's forces: h / b where they are not carried on
+  double scale = 1;   ///< scales ways, from the stage to the end of the step
 };
 
-/// What contact's forces are at a state of an implicit stage.
+/// Sums over contact's forces at a state of an implicit stage.
 struct ContactBalance {
-  double energy = 0;   ///< of the incremental potential, times the stage's factor [J]
-  double lacking = 0;  ///< what friction's caps are away from mu times the normal forces [N]
-  double forces = 0;   ///< sum of their sizes [N]
+  double energy = 0;   ///< incremental potential, times the stage's factor [J]
+  double lacking = 0;  ///< sum of |mu lam - cap|, lam the normal force [N]
+  double forces = 0;   ///< sum of the forces' sizes [N]
 };
 
-/// Contact of one level in steps that take it implicitly: the forces on its surface points, and
-/// what obstacles do to it. Kernels alone, which the device leaves out where nothing touches.
+/// Contact of one level, implicit in each step: forces on surface points, impulses of obstacles.
+/// All work is in kernels, which the device skips where nothing touches.
 template <class B>
 class ContactResponse {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
-  /// Answers the points' forces by accelerations of the vertices, where `count` is above 0.
+  /// Finds the vertices' accelerations by the records' last forces, where anything touches.
   using Respond = std::function<void()>;
 
   ContactResponse() = default;
   ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit);
 
-  /// f += contact's forces on a state at `time`, which f are all other forces on; A is the inverse
-  /// of the lumped masses.
+  /// Adds contact's forces on a state at `time` [s] to f, which has all other forces [N].
+  /// The inverse mass A is that of lumped masses. A step of span 0: contact of a state at rest.
   void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                   const ContactStep& step, const Vectors<B>& f);
-  /// The forces of the records, for any other A: `free` are the accelerations without contact,
-  /// respond() makes those by the records' last forces, in `answer`; `bounding`: of unit forces, by
-  /// absolute weights.
+  /// Finds the forces of the records for any other inverse mass A.
+  /// `free`: accelerations without contact [m/s^2]. respond() fills `answer`, the accelerations by
+  /// the records' last forces [m/s^2]. On its first call these are unit forces, for which absolute
+  /// weights bound the sum.
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                const ContactStep& step, const Vectors<B>& free, const Vectors<B>& answer,
                const Respond& respond);
 
-  /// Of which part of a macro step the next ones are: a shorter step takes the forces that a whole
-  /// one would. Sweeps leave a contact softer the longer the step, so that in a short one overlap
-  /// that was at rest would be pushed out at once.
+  /// Sets the part of a macro step that each next step takes: 1, or less for a shorter step.
+  /// A shorter step gets the forces of a whole one. Sweeps leave a contact softer the longer the
+  /// step is. With its own forces a short step would push out at once the overlap that was at rest.
   void set_part(double part) { part_ = part; }
 
-  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it,
-  /// or as a method carries them on.
+  /// Sets the impulses of all obstacles and bodies to 0.
   void forget_impulse(const Exec& exec) const;
+  /// Adds the last forces times `weight` [s] to the impulse of each obstacle and body.
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                    double weight) const;
+  /// Adds the last forces to the impulses, for a method that carries forces from step to step.
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                    const CarriedImpulse& of) const;
-  /// [6 obstacles, then bodies] N s and N m s
+  /// Returns the impulses and angular impulses: [6 obstacles, then 6 bodies] N s and N m s.
   const Doubles<B>& impulse() const { return impulse_; }
-  /// Stored in all contact of the level's state [J]. Waits.
+  /// Returns the energy stored in all contact of the level's state [J]. Waits.
   double energy(const Exec& exec, const Level<B>& level, double time) const;
-  /// Done by friction in all steps so far [J]. Waits.
+  /// Returns the work of friction in all steps so far [J]. Waits.
   double friction_work(const Exec& exec) const;
-  /// Of each obstacle the part of what touches it that slips. Waits.
+  /// Returns for each obstacle which part of its touching records slips, 0 to 1. Waits.
   std::vector<double> slipping(const Exec& exec) const;
-  /// Of each obstacle, then of pairs; see Simulation::contact_depths(). Waits.
+  /// Returns the largest depth in each obstacle, then in pairs [m]. Waits.
+  /// See Simulation::contact_depths().
   std::vector<double> depths(const Exec& exec, const Level<B>& level, double time) const;
-  /// Takes hold of what is near an obstacle.
+  /// Grasps the points near an obstacle.
   void grasp(const Exec& exec, const Level<B>& level, double time, int obstacle) const {
     contact_->grasp(exec, level, time, obstacle, records_);
   }
 
-  // Of implicit levels, see kernels/contact/implicit_contact.hpp:
+  // For implicit levels only, see kernels/contact/implicit_contact.hpp:
 
   /// Finds the records of a step from a state at `time`.
   void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                    const ContactStage&);
-  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these
-  /// weights; `secant`: see LineariseContact. Waits.
+  /// Adds the records' forces to f and makes their blocks for a system of these weights. Waits.
+  /// The way of a record is taken `ahead` [s] of the state, with its velocities. `secant`: see
+  /// LineariseContact.
   ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state,
                            const ImplicitWeights&, double ahead, const Vectors<B>& f,
                            bool secant = false);
-  /// At a state, with the caps as they are. Waits.
+  /// Returns the sums over contact's forces at a state; the caps of friction stay. Waits.
   ContactBalance balance(const Exec& exec, const Level<B>& level, const State<B>& state);
-  /// Caps become those of the normal forces at a state.
+  /// Sets the caps of friction to mu times the normal forces at a state.
   void update_caps(const Exec& exec, const Level<B>& level, const State<B>& state) const;
-  /// The step ends in a state: its forces are the last, and what is carried goes on.
+  /// Ends the step in a state: stores the forces there as the last ones, and the carried stretches.
   void end_stage(const Exec& exec, const Level<B>& level, const State<B>& state) const;
-  /// f += W^T of the last forces times the stage's factor
+  /// Adds the last forces to the vertices: f += W^T F, times the stage's factor.
   void add_last_forces(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const {
     scatter(exec, level, f, stage_.factor);
   }
   const ContactStage& stage() const { return stage_; }
-  /// Stored in the contact that a step from a state at `time` would start with [J]; the records
-  /// stay those of the last step. Waits.
+  /// Returns the energy in the contact that a step from a state at `time` would start with [J].
+  /// The records stay those of the last step. Waits.
   double energy_found(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
-  /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
+  /// Adds a product: q += W^T C W p. `beside`: only of records that add_matrix() leaves out.
   void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
-  /// diagonal += its vertex blocks, likewise
+  /// Adds the vertex blocks of W^T C W. `beside`: only of records that add_matrix() leaves out.
   void add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
                     const Blocks<B>& diagonal) const;
-  /// A += scale W^T C W, of points that touch obstacles
+  /// Adds to a matrix: A += scale W^T C W, of points that touch obstacles.
   void add_matrix(const Exec& exec, const Level<B>& level, double scale,
                   const BlockMatrix<B>& A) const;
 
   const ContactRecords<B>& records() const { return records_; }
   std::size_t bytes() const;
-  /// What a step takes from the last: forgotten, saved, kept and put back.
+  /// Values that a step takes from the last: functions to forget, save, copy and restore them.
   /// @{
   void forget(const Exec& exec);
   void persist(StateArchive<B>& archive, const std::string& name);
@@ -146,18 +151,18 @@ class ContactResponse {
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
-  /// records_: own_ as kernels are given it, `span`: of the last step
+  /// own_ owns the arrays; records_ is the copy for kernels, with the span of the last step
   ContactRecords<B> own_, records_;
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
-  std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
+  std::shared_ptr<const PairSearch<B>> search_;  ///< only where the surface may touch itself
   ListMaker<B> maker_;
   BlockSums<B> blocks_;
-  Vectors<B> free_, answer_;  ///< of the vertices, on explicit levels
+  Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;
-  Kept aside_;                   ///< the last step's records, while others are looked at
-  double part_ = 1, found_ = 0;  ///< found_: the time of the state that the records are of [s]
-  bool fresh_ = true;            ///< nothing is known of a last step
+  Kept aside_;                   ///< copy of the last step's records, in energy_found()
+  double part_ = 1, found_ = 0;  ///< found_: time of the state that the records are of [s]
+  bool fresh_ = true;            ///< true: no last step is known
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
              const ContactStep& step, ExplicitContact<B> contact, const Respond& respond,
@@ -171,7 +176,7 @@ class ContactResponse {
                double factor = 1) const;
   ImplicitContact<B> at(const Level<B>& level, const State<B>& state, double ahead) const;
   ContactBalance read_balance(const Exec& exec) const;
-  /// use(name, field) for what is carried from step to step.
+  /// Calls use(name, field) for each field that is carried from step to step.
   template <class Use>
   void each_carried(const Use& use) const;
 };

@@ -14,17 +14,17 @@
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <type_traits>
 
-// For obstacles_float.cpp and obstacles_double.cpp alone: the kernels of all shapes are the longest
-// thing to compile here.
+// Only obstacles_float.cpp and obstacles_double.cpp include this header, because the kernels of all
+// shapes take long to compile.
 namespace plica {
 
-/// An obstacle of one shape.
+/// Obstacle whose shape is known at compile time.
 template <class B, class Shape>
 class ObstacleOf final : public Obstacle<B> {
   using Real = typename B::Real;
   using Exec = typename B::Exec;
   Shape shape_;
-  Scalars<B> storage_;  // of the shape
+  Scalars<B> storage_;  // memory that the shape points to
   Vec3<double> origin_;
   double radius_;
   ObstacleOptions options_;
@@ -32,11 +32,11 @@ class ObstacleOf final : public Obstacle<B> {
   Path path_;
   Turning turning_;
   DepthWatch<B> watch_;
-  Doubles<B> tools_;                              // the obstacles' memory, with mass only
-  RigidTool tool_;                                // likewise
-  int first_;                                     // its own of them
-  Real longest_;                                  // edge of the surface [m]
-  static constexpr Real face_reach = Real(0.25);  // of an edge
+  Doubles<B> tools_;  // memory of all tools with mass; empty: this one has no mass
+  RigidTool tool_;    // mass and coupling; not used without mass
+  int first_;         // index of this tool's first number in tools_
+  Real longest_;      // longest edge of the surface [m]
+  static constexpr Real face_reach = Real(0.25);  // reach of triangles over that of points
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
@@ -62,8 +62,8 @@ class ObstacleOf final : public Obstacle<B> {
     const ObstaclePlace<B> at = place(time, static_cast<double>(records.span));
     const Real reach = face_reach * records.reach;
     fill(exec, records.close, 0);
-    // a triangle that is stretched no more than FindOnFaces allows for touches nothing if all of
-    // its corners are further than that
+    // A triangle touches nothing if all of its corners are further away than `between` [m]. This
+    // holds for triangles that are stretched no more than FindOnFaces allows.
     const Real between =
         reach + FindOnFaces<B, Shape>::stretch * FindOnFaces<B, Shape>::from_corner * longest_;
     update_vertices<B>(
@@ -103,8 +103,8 @@ class ObstacleOf final : public Obstacle<B> {
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
 
-/// The shape as kernels evaluate it; `storage` is what it points to, for its owner to keep.
-/// `radius`: of the largest ball in it.
+/// Returns the shape as kernels evaluate it. The owner of the shape keeps `storage`, the memory
+/// that the shape points to. `radius` becomes that of the largest ball inside the shape [m].
 template <class B, class S>
 auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& radius) {
   using Real = typename B::Real;

@@ -61,7 +61,7 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
                      DeepestCrossings<B>{{find}, fresh});
 }
 
-/// Where it is stale.
+/// Makes the grid of triangles anew where `grid_.stale` is above 0.
 template <class B>
 void PairSearch<B>::make_grid(const Exec& exec, const ContactRecords<B>& records) const {
   const Indices<B>& corner = records.mesh.corner;
@@ -73,7 +73,7 @@ void PairSearch<B>::make_grid(const Exec& exec, const ContactRecords<B>& records
                                                 SetWidth<B>{grid_, triangles});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
   where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{corner, grid_});
-  launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
+  launch_gathered<Exec>();  // Kokkos may give the scan other memory in the next call
   Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, buckets),
                         SumBefore<B>{grid_.filled, grid_.first, buckets, stale});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});

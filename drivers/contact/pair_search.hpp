@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// Finds what of a level's surface is near what else of it: fills the slots of pairs. Kernels
-/// alone; a grid of the triangles is kept while nothing has moved far.
+/// Finds the parts of a level's surface that are near each other, and fills the slots of pairs.
+/// All work is in kernels. A grid of the triangles is reused until something has moved far.
 template <class B>
 class PairSearch {
  public:
@@ -13,14 +13,14 @@ class PairSearch {
   using Real = typename B::Real;
 
   PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records);
-  /// The slots of pairs at a state. `fresh`: nothing is known of the last step.
+  /// Fills the slots of pairs at a state. `fresh`: no last step is known.
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
             const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const;
   std::size_t bytes() const;
 
  private:
-  PairGrid<B> own_, grid_;  ///< grid_: own_ as kernels are given it
-  BlockSums<B> blocks_;     ///< for triangles
+  PairGrid<B> own_, grid_;  ///< own_ owns the arrays; grid_ is the copy for kernels
+  BlockSums<B> blocks_;     ///< block sums of reductions over triangles
 
   void make_grid(const Exec& exec, const ContactRecords<B>& records) const;
 };

@@ -10,8 +10,8 @@ namespace plica {
 
 namespace {
 
-constexpr int cells_around = 3;      // of margin
-constexpr double cells_across = 10;  // of the shortest extent, where nobody asks for a number
+constexpr int cells_around = 3;      // cells of margin on each side
+constexpr double cells_across = 10;  // least cells along the shortest extent, by default
 constexpr double affordable = 1 << 23, most_nodes = 1 << 27;
 
 double nodes_of(const Point& extent, double cell) {
@@ -22,7 +22,8 @@ double nodes_of(const Point& extent, double cell) {
       .prod();
 }
 
-/// `sheet`: its thickness [m]; 0: no sheet
+/// Returns the edge of a cell [m]. `cells`: number along the longest extent; 0: chosen here.
+/// `sheet`: thickness of a sheet [m]; 0: the surface is closed.
 double cell_size(const Point& extent, int cells, double sheet) {
   if (cells > 0) return extent.maxCoeff() / cells;
   double cell =

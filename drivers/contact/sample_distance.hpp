@@ -10,16 +10,16 @@ namespace plica {
 struct DistanceGrid {
   Point origin = Point::Zero();
   double cell = 0;    ///< [m]
-  double margin = 0;  ///< the surface stays that far from the grid's outside [m]
+  double margin = 0;  ///< distance from the surface to the boundary of the grid, at least [m]
   std::array<int, 3> nodes = {};
   std::vector<double> value;
 };
 
-/// Of a closed surface, or of a sheet of a thickness [m]; with `cells` along its longest extent, 0:
-/// 64, and more where it is thin. InputError where the grid would be too large, or too coarse to
-/// have a node inside.
+/// Returns the signed distances to a closed surface, or to a sheet of `thickness` [m] above 0.
+/// `cells`: number along the longest extent; 0: 64, and more where the shape is thin.
+/// Throws InputError where the grid would be too large, or too coarse to have a node inside.
 DistanceGrid sample_distance(const TriangleSurface& surface, int cells, double thickness = 0);
-/// The edge of that grid's cells [m].
+/// Returns the edge of the cells of the grid that sample_distance() makes [m].
 double distance_cell(const TriangleSurface& surface, int cells, double thickness = 0);
 
 }  // namespace plica

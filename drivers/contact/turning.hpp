@@ -5,45 +5,48 @@
 #include <plica/kernels/contact/move_tool.hpp>
 #include <vector>
 
-// Turns on the host. A rotation is told by a vector: its direction is the axis, its length the
-// angle.
+// Turns of obstacles, computed on the host. A rotation vector has the direction of the axis and the
+// length of the angle [rad].
 namespace plica {
 
-/// The angle as a motion: that of rotation vectors along the axis [rad].
+/// Returns the angle of a turn as a motion of rotation vectors along the axis [rad].
 Motion angle_of(const Turn& turn);
 
-/// Whether an obstacle ever moves or turns.
+/// Returns true where an obstacle ever moves or turns.
 bool moves(const ObstacleOptions& obstacle);
 
-/// The point that it turns about at t = 0 [m].
+/// Returns the point that an obstacle turns about at t = 0 [m].
 Point turned_about(const ObstacleOptions& obstacle);
 
-/// Of one with inertia, about its centre of mass at t = 0 [kg m^2].
+/// Returns the inertia of an obstacle about its centre of mass at t = 0 [kg m^2].
 Eigen::Matrix3d inertia_matrix(const ObstacleOptions& obstacle);
-Point principal_moments(const ObstacleOptions& obstacle);  ///< ascending
+/// Returns the principal moments of inertia, ascending [kg m^2].
+Point principal_moments(const ObstacleOptions& obstacle);
 
-/// How far a shape goes from a line [m]; infinity: without end, or not known.
+/// Returns the largest distance of a shape from a line [m]; infinity: endless, or not known.
 double reach_from(const Point& on_line, const Point& along, const ShapeOptions& shape);
 
+/// Returns the rotation matrix of a rotation vector [rad].
 Mat3<double> rotation_by(const Point& vector);
-/// The shortest of those that lead there.
+/// Returns the shortest rotation vector of a rotation matrix [rad].
 Point rotation_vector(const Mat3<double>& rotation);
 
-/// One with mass.
+/// Returns mass, inertia and coupling of an obstacle with mass.
 RigidTool rigid_tool(const ObstacleOptions& obstacle);
 
-/// How an obstacle is turned in time.
+/// Attitude of an obstacle as a function of time.
 class Turning {
  public:
-  Turning() = default;                            ///< not at all
-  Turning(const Turn& turn, const Point& about);  ///< `about` unless the turn says
-  /// See path_step() for `ahead`.
+  Turning() = default;  ///< makes one that never turns
+  /// Makes one that turns about `about` [m], unless the turn names another point.
+  Turning(const Turn& turn, const Point& about);
+  /// Returns the attitude at `time` [s], with the mean velocity of the next `ahead` [s].
   Attitude at(double time, double ahead = 0) const;
 
  private:
   bool turned_ = false;
   Vec3<double> centre_;
-  Mat3<double> before_;  // its rotation without the angle
+  Mat3<double> before_;  // rotation at angle 0
   std::vector<PathKnot> knots_;
   Path angle_;
 };

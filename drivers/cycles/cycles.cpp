@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cycles by name.
+// Functions that make the cycles, by name.
 #include <plica/drivers/cycles/fas.hpp>
 #include <plica/drivers/cycles/v_cycle.hpp>
 
@@ -7,7 +7,7 @@ namespace plica {
 
 namespace {
 
-/// A V-cycle with these mappings, which need what the entry says.
+/// Returns a V-cycle with these mappings. Checks that the entry's needs are those of the mappings.
 template <class B, class Entry, class Down, class Up>
 std::unique_ptr<Stepper<B>> v_cycle() {
   static_assert(Entry::needs.drift_limits == ((Down::needs_state && Down::needs_variation) ||

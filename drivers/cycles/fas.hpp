@@ -6,11 +6,11 @@
 
 namespace plica {
 
-/// A V-cycle whose coarse levels strive for the finest level's equilibrium, not their own: each
-/// carries the constant force tau = P^T (the finer level's force) - (its own), both at the state
-/// the cycle starts from, after the full approximation scheme (Brandt 1977). Restriction is the
-/// adjoint of the interpolation, coarse masses are inherited from the finer ones: mass and linear
-/// momentum pass exactly. State down, variation up.
+/// V-cycle whose coarse levels approach the finest level's equilibrium, not their own.
+/// Each coarse level has a constant force tau = P^T (the finer level's force) - (its own), both at
+/// the state that the cycle starts from, after the full approximation scheme (Brandt 1977). States
+/// go down, variations go up. Restriction is the adjoint of the interpolation, and coarse masses
+/// are restricted from the finer ones: mass and linear momentum pass exactly.
 ///
 /// Not symplectic: its linearised map has a spectral radius a little above 1 at every macro step
 /// with explicit levels.
@@ -60,8 +60,8 @@ class FasCycle final : public SharedStep<B> {
     });
   }
 
-  /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a
-  /// macro step.
+  /// Returns the contact step of the level's own sub-steps, for forces that tau is made of.
+  /// A macro step is too long for a stiff penalty force to stay constant.
   static ContactStep contact_of(const SolverLevel<B>& level, double t) {
     return {.span = level.share * t / level.substeps, .ends = false};
   }

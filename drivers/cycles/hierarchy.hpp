@@ -7,12 +7,13 @@
 
 namespace plica {
 
-/// All resolutions of one body, finest first.
+/// All levels of one scene, finest first.
 template <class B>
 struct Hierarchy {
   explicit Hierarchy(const typename B::Exec& exec) : clock(exec) {}
   StageClock<B> clock;
-  /// linear solvers point at them: none is added after integrators were made
+  /// levels, finest first; none may be added after integrators were made, since linear solvers keep
+  /// pointers to them
   std::vector<SolverLevel<B>> levels;
 
   const typename B::Exec& exec() const { return clock.exec(); }
@@ -23,7 +24,7 @@ struct Hierarchy {
   void begin_macro_step(double part) {
     for (SolverLevel<B>& level : levels) level.begin_macro_step(part);
   }
-  /// States were replaced: nothing that was carried from the steps before belongs to them.
+  /// Forgets all that is carried from earlier steps, after the states were replaced.
   void forget() {
     for (SolverLevel<B>& level : levels) level.forget();
   }

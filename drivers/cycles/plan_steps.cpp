@@ -13,8 +13,8 @@ namespace plica {
 
 namespace {
 
-/// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion
-/// then.
+/// Throws InputError where weights are no proportions: 0 or not finite.
+/// The critical step is 0 for undamped euler, and infinite where nothing moves.
 void expect_proportions(const std::vector<double>& weights, const std::string& distribution) {
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (!(weights[i] > 0 && std::isfinite(weights[i])))
@@ -61,15 +61,15 @@ std::vector<double> make_shares(const IntegrationOptions& options, const LevelFa
 
 namespace {
 
-constexpr double auto_safety = 0.9;  // of the predicted limit, for `macro_step: auto`
+constexpr double auto_safety = 0.9;  // step over the predicted limit, for `macro_step: auto`
 
 template <class T>
 const T& of_level(const std::vector<T>& values, std::size_t i) {
   return values.size() == 1 ? values.front() : values[i];
 }
 
-/// The largest macro step at which every explicit level keeps its limit; `auto` counts as one
-/// sub-step.
+/// Returns the largest macro step at which every explicit level keeps its limit [s].
+/// A level with `substeps: auto` counts as one sub-step.
 double largest_macro_step(const IntegrationOptions& o, const std::vector<LevelLimits>& levels,
                           const std::vector<double>& share) {
   double largest = std::numeric_limits<double>::infinity();

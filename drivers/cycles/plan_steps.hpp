@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-// How a macro step is shared out among the levels. All shares are positive and sum to 1.
+// Shares of the macro step that the levels take. All shares are positive and sum to 1.
 namespace plica {
 
-/// What a distribution looks at, per level, finest first.
+/// Properties that a distribution may use, one per level, finest first.
 struct LevelFacts {
-  std::vector<double> tets;
-  std::vector<double> critical_step;  ///< as an explicit level, [s]
+  std::vector<double> tets;           ///< number of tetrahedra
+  std::vector<double> critical_step;  ///< critical step as an explicit level [s]
 };
 
 struct EqualShares {
@@ -41,28 +41,29 @@ struct CriticalShares {
   static std::vector<double> weights(const LevelFacts& facts) { return facts.critical_step; }
 };
 
-/// Every computed distribution there is; `custom` is a list in the options. One more: its struct
-/// above, its name here.
+/// All distributions that are computed; `custom` is a list in the options.
+/// To add one, write its struct above and its name here.
 using Distributions = TypeList<EqualShares, InverseElementShares, CriticalShares>;
 
-/// The shares that the options ask for, after shift_to_coarsest. Throws InputError for an unknown
-/// name, a list of the wrong length, a share that is not positive (critical: of a level without a
-/// limit) or a sum that is not 1 to 1e-12.
+/// Returns the shares that the options ask for, after shift_to_coarsest.
+/// Throws InputError for an unknown name, a list of the wrong length, a share that is not positive,
+/// or a sum that differs from 1 by more than 1e-12. `critical` finds no share for a level without a
+/// limit.
 std::vector<double> make_shares(const IntegrationOptions& options, const LevelFacts& facts);
 
-/// Throws InputError where the options list shares of the macro step that are not one for each
-/// level, above 0, 1 together.
+/// Throws InputError where listed shares are not one for each level, above 0, with the sum 1.
 void validate_shares(const IntegrationOptions& options, std::size_t levels);
 
-/// What the plan of steps needs to know of a level.
+/// Properties of a level that the plan of steps depends on.
 struct LevelLimits {
   int tets = 0;
   std::string integrator;
   bool is_explicit = true;
-  double critical_step = 0;    ///< of an explicit integrator its own, of an implicit one symplectic
-                               ///< Euler's [s]; 0: none is stable
-  StiffElement stiffest = {};  ///< the worst of its elements
-  double typical_element = 0;  ///< the median of what elements allow by themselves [s]
+  /// largest stable step of an explicit integrator, of symplectic Euler for an implicit one [s]; 0:
+  /// no step is stable
+  double critical_step = 0;
+  StiffElement stiffest = {};  ///< element with the smallest step of its own
+  double typical_element = 0;  ///< median of the steps that elements allow by themselves [s]
 };
 
 struct StepPlan {
@@ -71,23 +72,23 @@ struct StepPlan {
   std::vector<int> substeps;
 };
 
-/// Elements whose own step is below this part of their level's median are named: fewer than that
-/// the mesh means, more than sound meshes of one material have.
+/// Limit below which an element is named: its own step over the median step of its level's
+/// elements. Sound meshes of one material have no element below it.
 inline constexpr double named_below = 0.5;
 
-/// An explicit sub-step above its limit. `element`: the one that sets the limit, if one alone does;
-/// a caller may number it otherwise.
+/// Error of an explicit sub-step above its limit. `element`: the element that sets the limit, if
+/// one alone does. A caller may throw it again with the element's number in another mesh.
 class SubstepRefused : public InputError {
  public:
   SubstepRefused(const std::string& words, int level, const std::optional<StiffElement>& element);
-  std::string words;                    ///< without the element
+  std::string words;                    ///< message without the element
   int level;                            ///< 0: the finest
-  std::optional<StiffElement> element;  ///< in the level's mesh
+  std::optional<StiffElement> element;  ///< numbered in the level's mesh
 };
 
-/// Shares, macro step and sub-steps of a cycle. Throws InputError for an explicit sub-step above
-/// its limit unless allow_unstable, with the numbers and the remedy, and where a macro step cannot
-/// be derived.
+/// Returns shares, macro step and sub-steps of a cycle.
+/// Throws InputError where a macro step cannot be derived. Throws SubstepRefused, with the numbers
+/// and the remedy, for an explicit sub-step above its limit unless allow_unstable.
 StepPlan plan_steps(const IntegrationOptions& options, const std::vector<LevelLimits>& levels);
 
 }  // namespace plica

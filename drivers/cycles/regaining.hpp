@@ -3,27 +3,28 @@
 
 namespace plica {
 
-/// When steps that were cut are tried longer again: 100 macro steps after a cut, and twice as many
-/// after each try that failed or did not last. So a body that stays stiff is tried ever more
-/// rarely, and one that is struck again and again stays with short steps.
+/// Decides when longer steps are tried again after steps were cut.
+/// The first try is 100 macro steps after a cut. After each try that failed or did not last the
+/// wait is twice as long. So a body that stays stiff is tried ever more rarely, and a body that is
+/// struck again and again keeps its short steps.
 class Regaining {
  public:
-  /// Steps were cut.
+  /// Records that steps were cut.
   void cut() {
     if (lasting_) wait_ *= 2;
     lasting_ = false, since_ = unknown;
   }
-  /// Whether to try, after this many macro steps of the run.
+  /// Returns true where longer steps are to be tried, after `steps` macro steps of the run.
   bool due(long steps) {
     if (since_ == unknown) since_ = steps;
     return steps - since_ >= wait_;
   }
-  /// It was tried.
+  /// Records a try after `steps` macro steps of the run. `longer`: steps became longer.
   void tried(long steps, bool longer) {
     since_ = steps, lasting_ = longer;
     longer ? ++count_ : wait_ *= 2;
   }
-  /// How often steps became longer.
+  /// Returns how often steps became longer.
   long count() const { return count_; }
 
   template <class Archive>
@@ -34,7 +35,7 @@ class Regaining {
  private:
   static constexpr long unknown = -1;
   long since_ = unknown, wait_ = 100, count_ = 0;
-  bool lasting_ = false;  // made longer, and not cut since
+  bool lasting_ = false;  // true: steps became longer, and were not cut since
 };
 
 }  // namespace plica

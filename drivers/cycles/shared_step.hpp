@@ -9,18 +9,18 @@
 
 namespace plica {
 
-/// What the paper's cycles have in common: the macro step is shared out among the levels, and each
-/// integrates its share.
+/// Base of the cycles in which each level integrates its own share of the macro step.
 ///
-/// The limit of an explicit level is that of its state at rest. A body that is pressed or struck
-/// stiffens, and has a shorter one. So where the number of sub-steps was left to the plan, repair()
-/// cuts the explicit levels' sub-steps in half, and lengthen() doubles them again where the largest
-/// eigenvalue allows it. Beyond its limit the fastest motion grows by a part in every step: where
-/// kinetic energy has grown much, lost_stability() asks for the eigenvalue of what moves.
+/// The plan takes the limit of an explicit level at rest. A body that is pressed or struck
+/// stiffens, and its limit is shorter. So where the number of sub-steps was left to the plan,
+/// repair() halves the explicit levels' sub-steps. lengthen() doubles them again where the largest
+/// eigenvalue allows it. Beyond the limit the fastest motion grows by a factor in every step. Where
+/// kinetic energy has grown much, lost_stability() computes the eigenvalue of the motion that there
+/// is.
 template <class B>
 class SharedStep : public Stepper<B> {
  public:
-  /// Shares, sub-steps and the macro step, see plan_steps(); then what the cycle itself needs.
+  /// Sets shares, sub-steps and the macro step, see plan_steps(), and allocates the cycle's fields.
   void plan(StepperSetup<B>& setup) override {
     std::vector<LevelLimits> limits;
     for (const LevelReport& r : setup.reports)
@@ -90,15 +90,16 @@ class SharedStep : public Stepper<B> {
   }
 
  protected:
-  /// Fields that this cycle keeps on the levels, and no others.
+  /// Allocates the fields that this cycle keeps on the levels.
   virtual void allocate(Hierarchy<B>& hierarchy) = 0;
 
-  /// Where motions are given, all levels are at the same time before any of them is looked at.
+  /// Sets given motions on all levels to the same time [s], before any state is mapped.
   static void prescribe_levels(Hierarchy<B>& h, double time) {
     for (SolverLevel<B>& level : h.levels) prescribe(h.exec(), level, level.state, time);
   }
 
-  /// Level i's own part of a macro step of t [s], from `time` [s]; returns the time it ends at.
+  /// Integrates level i over its share of a macro step of t [s], from `time` [s].
+  /// Returns the time at the end [s].
   double integrate(Hierarchy<B>& h, int i, double time, double t) const {
     SolverLevel<B>& level = h[i];
     const double span = level.share * t;
@@ -114,18 +115,17 @@ class SharedStep : public Stepper<B> {
 
  private:
   static constexpr int most_halvings = 5;
-  std::vector<bool> is_explicit_;  ///< of the levels
-  std::vector<double> radius_;     ///< see StabilityLimit; of implicit levels 0
+  std::vector<bool> is_explicit_;  ///< [levels]
+  std::vector<double> radius_;     ///< [levels] see StabilityLimit; 0: implicit
   double macro_step_ = 0;
   double safety_ = 0;
   bool shortens_ = false;
   int halvings_ = 0;
   long cuts_ = 0;
   Regaining regaining_;
-  double calm_ = 0;  ///< what kinetic energy is compared with [J]
+  double calm_ = 0;  ///< reference that kinetic energy is compared with [J]
 
-  /// The largest angular frequency that level i's sub-steps bear with so many halvings [1/s]; 0: no
-  /// limit.
+  /// Returns the largest stable angular frequency on level i with `halvings` [1/s]; 0: no limit.
   double most_at(const Hierarchy<B>& h, int i, int halvings) const {
     const SolverLevel<B>& level = h[i];
     return radius_[static_cast<std::size_t>(i)] * level.substeps * (1 << halvings) /
@@ -136,8 +136,8 @@ class SharedStep : public Stepper<B> {
     return {level, level.elasticity(), level.state.u, over};
   }
 
-  /// Whether all levels are below their limits as they are, with half the room that sub-steps have
-  /// at rest.
+  /// Returns true where all levels in their present states are below their limits with `halvings`.
+  /// The room below a limit must be at least half of that at rest.
   bool is_stable(const Hierarchy<B>& h, int halvings) const {
     for (int i = 0; i < h.count(); ++i) {
       const double most = most_at(h, i, halvings), enough = (1 + safety_) / 2 * most;

@@ -10,75 +10,76 @@
 
 namespace plica {
 
-/// What set-up hands to a stepper's plan, level by level, finest first; and what the plan decides.
+/// Input of a stepper's plan, level by level, finest first, and the results of the plan.
 template <class B>
 struct StepperSetup {
   const Problem& problem;
-  /// its levels that are integrated, with forces and integrators
+  /// levels that are integrated, with forces and integrators
   Hierarchy<B>& hierarchy;
-  const std::vector<TetMesh>& meshes;               ///< placed, of all levels in use
-  const std::vector<LevelConstants>& constants;     ///< of these meshes
+  const std::vector<TetMesh>& meshes;               ///< placed meshes of all levels in use
+  const std::vector<LevelConstants>& constants;     ///< constants of each of the meshes
   const std::vector<Embedding>& up;                 ///< [i]: level i-1's vertices in level i
-  std::shared_ptr<const Elasticity<B>> elasticity;  ///< of the finest level
+  std::shared_ptr<const Elasticity<B>> elasticity;  ///< elasticity of the finest level
   /// largest_eigenvalue() of the finest level at rest [1/s^2]
   double eigenvalue;
   std::shared_ptr<const Contact<B>> contact;  ///< none without obstacles
-  std::vector<LevelReport>& reports;          ///< of all levels in use; completed by the plan
-  double macro_step = 0;                      ///< [s], by the plan
-  std::optional<HimReport> him = {};          ///< by the plan of that stepper
+  std::vector<LevelReport>& reports;          ///< all levels in use; completed by the plan
+  double macro_step = 0;                      ///< [s], set by the plan
+  std::optional<HimReport> him = {};          ///< set by the plan of the stepper `him`
 };
 
-/// How the levels take a macro step together. The paper's cycles share it out among the levels
-/// (shared_step/), the hierarchical inverse mass (him/) steps the finest level, with an inertia
-/// that all levels contribute to. The code that holds a stepper does not depend on which one it is.
-/// In the order of a run:
+/// Method by which the levels take a macro step together.
+/// The cycles of shared_step.hpp give each level a share of the macro step. The hierarchical
+/// inverse mass (him/) steps the finest level, with an inertia that all levels contribute to. Code
+/// that uses a stepper does not depend on which one it is. The functions in the order of a run:
 ///
 ///   plan     at set-up: the macro step, what each level does in it, work arrays
 ///   start    once, from the state that set-up has made
 ///   step     macro steps
-///   check    lost_stability(), which may be true before the state is bad; repair() makes the next steps stable, lengthen() takes
-///            that back
+///   check    lost_stability(), which may be true before the state is bad; repair() makes the
+///            next steps stable, and lengthen() takes that back
 ///   report   counters(), bytes(); persist() for checkpoints
 template <class B>
 class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  /// Decides the macro step and each level's part of it, allocates what that needs and completes
-  /// the reports. InputError with the numbers where no such step is stable.
+  /// Decides the macro step and each level's part of it, allocates fields, completes the reports.
+  /// Throws InputError with the numbers where no such step is stable.
   virtual void plan(StepperSetup<B>& setup) = 0;
 
-  /// Makes the coarser levels' states follow level 0's, which was just set.
+  /// Sets the coarser levels' states by level 0's state, which was set before.
   virtual void begin(Hierarchy<B>& hierarchy) = 0;
-  /// The same at the very start, where it may also change level 0's velocities into what it can
-  /// carry.
+  /// Sets the coarser levels' states by level 0's at the start of a run.
+  /// May also change level 0's velocities into motion that the stepper can represent.
   virtual void start(Hierarchy<B>& hierarchy) { begin(hierarchy); }
-  /// From `time` over `t` [s].
+  /// Takes a macro step of `t` [s] from `time` [s].
   virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
 
-  /// Whether steps so far have lost stability, after macro steps. Waits. `kinetic`: level 0's
-  /// energy of motion about its mean [J]
+  /// Returns true where the steps so far have lost stability; called after macro steps. Waits.
+  /// `kinetic`: level 0's energy of motion about its mean [J].
   virtual bool lost_stability(const Hierarchy<B>&, double /*kinetic*/) { return false; }
-  /// Whether that is seen only when it has been going on for a while.
+  /// Returns true where lost_stability() detects an instability only some time after it began.
   virtual bool sees_late() const { return false; }
-  /// Whether repair() can ever help.
+  /// Returns true where repair() can ever help.
   virtual bool can_repair() const { return false; }
-  /// Whether it may where a check has found this.
+  /// Returns true where repair() may help against what a check has found.
   virtual bool repairs(const Diagnosis&) const { return false; }
-  /// Makes steps of `t` [s] stable again, by shorter ones within them, starting from the present
-  /// state; false where it cannot.
+  /// Makes macro steps of `t` [s] stable again, by shorter steps within them, from the present
+  /// state. Returns false where it cannot.
   virtual bool repair(Hierarchy<B>&, double) { return false; }
-  /// Takes back what repair() has cut as far as the present state, which has passed its check, does
-  /// not need it any more. `steps`: macro steps of the run so far. It is tried now and then, see
-  /// Regaining; waits then.
+  /// Makes steps that repair() has cut longer again, as far as the present state allows it.
+  /// That state has passed its check. `steps`: macro steps of the run so far. Tries only now and
+  /// then, see Regaining, and waits then.
   virtual void lengthen(Hierarchy<B>&, double /*t*/, long /*steps*/) {}
-  /// Into how many parts repairs have cut the plan's sub-steps.
+  /// Returns into how many parts repairs have cut the plan's sub-steps.
   virtual int parts() const { return 1; }
 
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Device memory of its own.
+  /// Returns the size of the stepper's own device memory [bytes].
   virtual std::size_t bytes() const { return 0; }
-  /// Names what it carries from one macro step to the next, besides the levels' states.
+  /// Passes to the archive all that the stepper carries from one macro step to the next.
+  /// The levels' states are not among these.
   virtual void persist(StateArchive<B>&) {}
 };
 

@@ -6,14 +6,14 @@
 
 namespace plica {
 
-/// The V-cycle of Wu, Yao, Enquobahrie, Zhang & Audette (EMBC 2012): down, the state of every level
-/// goes to the next coarser one; up, every level takes over from the next coarser one and
-/// integrates its share of the macro step. Levels act one after the other, so that the coarsest
-/// covers the macro step's beginning and the finest its end.
+/// V-cycle of Wu, Yao, Enquobahrie, Zhang & Audette (EMBC 2012).
+/// On the way down, the state of every level goes to the next coarser one. On the way up, every
+/// level takes over from the next coarser one and integrates its share of the macro step. Levels
+/// act one after the other: the coarsest covers the macro step's beginning, the finest its end.
 ///
-/// A mapping hands over the state itself or its variation, what has changed over one macro step,
-/// added to a base that does not have it yet: down, the level's state at the start of the last
-/// cycle; up, its state now.
+/// A mapping passes on the state itself or its variation, the change over one macro step. A
+/// variation is added to a base without that change. On the way down the base is the level's state
+/// at the start of the last cycle, on the way up it is the level's present state.
 template <class B, class Down, class Up>
 class VCycle final : public SharedStep<B> {
   using Base = SharedStep<B>;
@@ -61,7 +61,8 @@ class VCycle final : public SharedStep<B> {
     if (keeps_start) h.clock.time("keep", i, [&] { level.start.copy(h.exec(), level.state); });
   }
 
-  // called before the coarse level's own start is taken anew: it still holds that of the last cycle
+  // Must be called before the coarse level's start is stored anew. coarse.start is then the state
+  // at the start of the last cycle.
   static void restrict_state(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {

@@ -11,11 +11,11 @@ namespace plica {
 
 namespace {
 
-/// What a domain has with a neighbour; see NodalRows.
+/// Coefficients of a domain and one neighbour; see NodalRows.
 struct Pair {
   int neighbour = -1;
   Point gradient = Point::Zero(), surface = Point::Zero();  ///< C_ab, S_ab
-  double coupling = 0, smoothing = 0, size = 0;             ///< size: of what cancels in S_ab
+  double coupling = 0, smoothing = 0, size = 0;  ///< size: sum of the terms' norms in S_ab
 };
 
 struct Domain {
@@ -27,7 +27,7 @@ struct Domain {
   }
 };
 
-/// The domains of a mesh, those of region 0 first, in each region in the order of the vertices.
+/// Domains of a mesh, by region, in each region in the order of the vertices.
 class Domains {
  public:
   explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(4 * mesh.tets.size()) {
@@ -42,7 +42,7 @@ class Domains {
 
  private:
   const TetMesh& mesh_;
-  std::vector<int> corners_;  ///< [4 tetrahedra] the domains of their corners
+  std::vector<int> corners_;  ///< [4 tetrahedra] domain of each corner
 
   void find_corners() {
     const Grouping regions = tets_by_region(mesh_);
@@ -51,7 +51,8 @@ class Domains {
       add_region(static_cast<int>(r), regions.of(r), domain_of);
   }
 
-  /// @param domain_of  per vertex; -1 before and after
+  /// Adds the domains of one region.
+  /// @param domain_of  work array, one per vertex; -1 before and after
   void add_region(int region, std::span<const int> tets, std::vector<int>& domain_of) {
     std::vector<int> vertices;
     for (const int e : tets)
@@ -72,7 +73,7 @@ class Domains {
     for (const int corner : corners) add_corner(domain, index_of(corner) / 4, index_of(corner) % 4);
     std::ranges::sort(domain.pairs, {}, &Pair::neighbour);
     for (Pair& p : domain.pairs)
-      if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // an edge inside the region
+      if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // edge inside the region
   }
 
   static Pair& pair(Domain& d, int neighbour) {
@@ -81,7 +82,7 @@ class Domains {
     return d.pairs.emplace_back(Pair{.neighbour = neighbour});
   }
 
-  /// Corner a of tetrahedron e.
+  /// Adds corner a of tetrahedron e to a domain.
   void add_corner(Domain& domain, std::size_t e, std::size_t a) const {
     const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;
@@ -103,10 +104,10 @@ class Domains {
   }
 };
 
-/// Which domain stands in which row: by region, then in windows of rows, those with the most
-/// surface pairs first, of these the longest.
+/// Returns the domain of each row: by region, then within windows of rows.
+/// In a window domains with more surface pairs come first, then those with more pairs.
 std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
-  std::vector<int> order;  // -1: fills up a slice
+  std::vector<int> order;  // -1: empty row that fills up a slice
   const auto window = static_cast<std::size_t>(32 * height);
   for (std::size_t begin = 0; begin < domains.size();) {
     std::size_t end = begin;
@@ -128,7 +129,7 @@ std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
   return order;
 }
 
-/// The rows, slice by slice.
+/// Builder of the rows, slice by slice.
 template <class B>
 class SlicedRows {
   using Real = typename B::Real;
@@ -182,9 +183,9 @@ class SlicedRows {
  private:
   const std::vector<Domain>& domains_;
   std::vector<int> order_, slot_of_;
-  std::vector<int> first_{0}, first_surface_{0};  // of each slice, among its columns
+  std::vector<int> first_{0}, first_surface_{0};  // [slices + 1] first column of each slice
 
-  /// Pairs of a slice's rows, each in a column of its own.
+  /// Arrays of pairs: each pair of a row stands in a column of its slice.
   struct Columns {
     int* neighbour;
     Real *gradient, *coupling, *smoothing;  ///< the last two may be left out
@@ -204,8 +205,8 @@ class SlicedRows {
     return order_[slot] >= 0 ? domains_[index_of(order_[slot])] : none;
   }
 
-  /// In the order of their slots; where there are fewer than in other rows of the slice, zeros and
-  /// the row itself.
+  /// Adds the pairs of a slot's domain, in the order of the neighbours' slots.
+  /// A row with fewer pairs than others of its slice is filled up with zeros for the row itself.
   void add_pairs(std::size_t slot, const Columns& all, const Columns& surface) const {
     std::vector<const Pair*> pairs;
     for (const Pair& pair : domain(slot).pairs) pairs.push_back(&pair);
@@ -225,7 +226,7 @@ class SlicedRows {
       surface.put(surface_column++, row, self, Point::Zero(), {});
   }
 
-  /// What there is one of per slot or slice.
+  /// Fills the arrays with one value per slot or per slice.
   void add_slots(Rows& rows, std::size_t vertices) const {
     std::vector<int> region, vertex;
     std::vector<Real> volume, inverse;

@@ -6,21 +6,21 @@
 
 namespace plica {
 
-/// What nodal elements need to know of a mesh's regions; an entry each, one where the mesh names
-/// none.
+/// Constants of nodal elements for each region of a mesh; one entry where the mesh names no region.
 struct NodalConstants {
   std::vector<std::vector<double>> material;  ///< constants of the material
   std::vector<double> stabiliser;             ///< beta mu [Pa]
-  std::vector<double> excess;                 ///< of lambda, on smoothed volumes [Pa]; empty: none
-  std::vector<double> damping;                ///< by stiffness [s]; empty: none
+  /// part of lambda that acts on smoothed volumes [Pa]; empty: pressures are not smoothed
+  std::vector<double> excess;
+  std::vector<double> damping;  ///< stiffness-proportional damping [s]; empty: none
 };
 
-/// The rows of a mesh at rest, in its vertices' order but for short windows, in which rows of a
-/// like length stand together.
+/// Returns the rows of a mesh at rest, one for each domain, by region and then by vertex.
+/// Within short windows of this order rows of similar length are put together.
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants);
 
-/// Buffers for them.
+/// Allocates the work arrays that kernels over these rows need.
 template <class B>
 NodalWork<B> make_nodal_work(const NodalRows<B>& rows);
 

@@ -37,7 +37,7 @@ class Bisection {
     for (const int e : tets) box = {box.min.cwiseMin(centroid(e)), box.max.cwiseMax(centroid(e))};
     int axis = 0;
     (box.max - box.min).maxCoeff(&axis);
-    // whole groups on either side, so that most come out full
+    // A whole number of groups on either side, so that most groups become full.
     const auto groups = std::max<std::ptrdiff_t>(2, (size + elements_ - 1) / elements_);
     const auto middle = static_cast<std::size_t>(size * (groups / 2) / groups);
     std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(middle), tets.end(),
@@ -81,7 +81,7 @@ std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements
 
 namespace {
 
-/// Clusters of elements as patches.
+/// Builder of patches from clusters of elements.
 template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
@@ -127,7 +127,7 @@ class PatchBuilder {
     const Sums sums{summed.data(), first_slot.data(), slot.data()};
     sums.first_slot[0] = 0;
     for_row_ranges(clusters_.size(), [&](std::size_t begin, std::size_t end) {
-      std::vector<int> local(mesh_.vertices.size());  // a mesh vertex's place in the patch
+      std::vector<int> local(mesh_.vertices.size());  // [vertices] place in the patch
       for (std::size_t p = begin; p < end; ++p) add_patch(p, local, elements, sums);
     });
     patches.corner = corner.upload(), patches.shape = shape.upload(),
@@ -138,7 +138,7 @@ class PatchBuilder {
     return patches;
   }
 
-  /// What patches have of their regions: some numbers each.
+  /// Copies the values of each patch's region to the device, one patch after the other.
   template <class Values>
   Scalars<B> of_regions(const std::string& name, const Values& values) const {
     std::vector<Real> all;
@@ -153,7 +153,7 @@ class PatchBuilder {
   const TetMesh& mesh_;
   const std::vector<std::vector<int>>& clusters_;
   std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_sum_{0};
-  std::vector<std::size_t> first_slot_{0};  // of a patch
+  std::vector<std::size_t> first_slot_{0};  // [patches + 1]
 
   struct Elements {
     std::uint16_t* corner;
@@ -168,10 +168,10 @@ class PatchBuilder {
 
   struct Vertices {
     std::vector<int> vertex;
-    std::vector<std::size_t> elements;  // numbers of them, ascending
+    std::vector<std::size_t> elements;  // number of elements around a vertex, ascending
 
     std::size_t sums() const { return (vertex.size() + at_once - 1) / at_once; }
-    std::size_t slots() const {  // as many as the last vertex of each sum takes
+    std::size_t slots() const {  // each sum has the length that its last vertex needs
       std::size_t count = 0;
       for (std::size_t i = 1; i <= sums(); ++i)
         count += at_once * elements[std::min(i * at_once, vertex.size()) - 1];
@@ -222,7 +222,7 @@ class PatchBuilder {
     return static_cast<std::uint16_t>((pack * 4 + corner) * 3 * W + lane);
   }
 
-  /// The inverse of the edges, row by row, and the volume.
+  /// Returns the inverse of the edges' matrix, row by row, and the volume.
   std::array<double, 10> shape_of(std::size_t e) const {
     const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;

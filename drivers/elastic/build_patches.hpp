@@ -6,14 +6,15 @@
 
 namespace plica {
 
-/// Tetrahedra in groups of neighbours: each of one region, with at most `elements` of them and
-/// `vertices` vertices. Within a group in mesh order. By recursive bisection across the longest
-/// extent of the centroids.
+/// Returns tetrahedra in groups of neighbours, with at most `elements` elements and `vertices`
+/// vertices. Each group is of one region, and in mesh order. Groups are made by recursive bisection
+/// across the longest extent of the centroids.
 std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements, int vertices);
 
-/// The patches of a mesh with the constants of its material, as many in every region, and
-/// stiffness-proportional damping [s] per region (one entry where the mesh names none; empty: no
-/// damping).
+/// Returns the patches of a mesh.
+/// @param constants  constants of the material per region, the same number in every region
+/// @param damping    stiffness-proportional damping per region [s]; one entry where the mesh names
+///                   no region; empty: no damping
 template <class B>
 Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
                          const std::vector<double>& damping = {});

@@ -6,7 +6,7 @@
 
 namespace plica {
 
-// Each in a source of its own for each material, and for all laws of tissue.
+// Defined in sources that the build writes, one for each material, one for all laws of tissue.
 template <class B, class Material>
 std::unique_ptr<Elasticity<B>> make_linear_elasticity();
 template <class B, class Material>

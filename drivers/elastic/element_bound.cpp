@@ -13,10 +13,12 @@ namespace plica {
 
 namespace {
 
-/// Of one element alone. With B its strains per displacement and C Hooke's law, V cancelling
-/// against the lumped rho V / 4, w^2 is 4 / rho times the largest eigenvalue of B^T C B. In the
-/// principal axes of G, the sum of g g^T over its corners' gradients g, shear and stretch part;
-/// shear's mu (G_i + G_j) is never the largest, and stretch has (lambda 1 1^T + 2 mu) G.
+/// Returns 2/w of one element alone [s].
+/// With B its strains per displacement and C Hooke's law, w^2 is 4 / rho times the largest
+/// eigenvalue of B^T C B: the volume V cancels against the lumped mass rho V / 4. G is the sum of g
+/// g^T over the gradients g of the corners. In the principal axes of G shear and stretch are
+/// separate. The eigenvalues mu (G_i + G_j) of shear are never the largest; stretch has the matrix
+/// (lambda 1 1^T + 2 mu) G.
 double element_step(const TetMesh& mesh, std::size_t e, const std::vector<Lame<double>>& lame,
                     const std::vector<double>& density) {
   const auto region =

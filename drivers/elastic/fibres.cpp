@@ -26,7 +26,7 @@ double volume_of(const TetMesh& mesh, std::size_t t) {
                                    corner_of(mesh, t, 2), corner_of(mesh, t, 3));
 }
 
-/// What is given of each vertex: 0 or 1, or NaN where it is free.
+/// Returns the given temperature of each vertex: 0, 1, or NaN where it is free.
 std::vector<double> given_temperatures(const TetMesh& mesh, const Selection& from,
                                        const Selection& to, const std::string& path) {
   const double free = std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +43,8 @@ std::vector<double> given_temperatures(const TetMesh& mesh, const Selection& fro
   return given;
 }
 
-/// int grad w . grad T = 0 for every w that is 0 where T is given.
+/// Solves for the free temperatures: int grad w . grad T = 0 for every w that is 0 where T is
+/// given.
 std::vector<double> temperatures(const TetMesh& mesh, std::vector<double> T) {
   std::vector<int> unknown(T.size(), -1);
   int count = 0;
@@ -76,8 +77,8 @@ std::vector<double> temperatures(const TetMesh& mesh, std::vector<double> T) {
   return T;
 }
 
-/// Gives elements without a direction the mean of those that share a vertex with them, from these
-/// on; false where none of them has one.
+/// Gives elements without a direction the mean direction of those that share a vertex with them.
+/// Each call reaches one layer of elements. Returns false where no such element got a direction.
 bool take_from_neighbours(const TetMesh& mesh, std::vector<Point>& direction) {
   std::vector<Point> at_vertex(mesh.vertices.size(), Point::Zero());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
@@ -135,7 +136,7 @@ bool varies(const std::optional<FibreOptions>& o) {
   return o && (o->around || o->from || !o->field.empty() || !o->sheet_field.empty());
 }
 
-/// Level 0 with the regions that are chosen by selections.
+/// Returns the mesh of level 0 with the regions that selections choose.
 TetMesh finest_with_regions(const Body& body) {
   TetMesh mesh = body.levels.front();
   const auto known = [&](const auto& region) {
@@ -145,7 +146,7 @@ TetMesh finest_with_regions(const Body& body) {
   return mesh;
 }
 
-/// The fields that directions of a level are taken from.
+/// Fields and flows that give the directions of a level's elements.
 class FibreFields {
  public:
   FibreFields(const Body& body, const TetMesh& mesh, int level)
@@ -167,7 +168,7 @@ class FibreFields {
     return checked(path, name, 0, near, first->second[near]);
   }
 
-  /// Of a flow through level 0.
+  /// Returns the direction of an element in a flow between sets of vertices of level 0.
   const Point& flow(const std::string& path, const FibreOptions& o, std::size_t tet) {
     const auto [found, is_new] = flows_.try_emplace(path);
     if (is_new)
@@ -204,7 +205,7 @@ FibreAxes fibre_axes(const FibreOptions& o, const Point& at) {
   const Point along = o.around->axis.normalized();
   Point out = at - o.around->point;
   out -= along.dot(out) * along;
-  if (!(out.norm() > 0)) out = along.unitOrthogonal();  // on the line
+  if (!(out.norm() > 0)) out = along.unitOrthogonal();  // the point is on the line
   const Point round = along.cross(out.normalized());
   const double c = std::cos(o.around->angle), s = std::sin(o.around->angle);
   return {c * round + s * along, c * along - s * round};
@@ -278,7 +279,7 @@ Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>
 template <class B>
 Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
                          const std::vector<FibreAxes>& of_tets) {
-  // sums of V a a^T: opposite directions are the same fibre
+  // Sums of V a a^T, because opposite directions are the same fibre.
   struct Sum {
     Eigen::Matrix3d axis = Eigen::Matrix3d::Zero(), sheet = Eigen::Matrix3d::Zero();
   };

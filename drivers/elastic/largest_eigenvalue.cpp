@@ -10,7 +10,7 @@ namespace plica {
 
 namespace {
 
-/// y = K x; returns x.y.
+/// Sets y = K x and returns x.y.
 template <class B>
 double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x,
                 const Vectors<B>& y, const BlockSums<B>& blocks, const Doubles<B>& result) {
@@ -20,7 +20,7 @@ double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vec
   return host_values(exec, result)[0];
 }
 
-/// y = M^-1 x
+/// Sets y = M^-1 x.
 template <class B>
 void multiply_by_inverse_mass(const typename B::Exec& exec, const Level<B>& level,
                               const Vectors<B>& x, const Vectors<B>& y) {
@@ -28,8 +28,8 @@ void multiply_by_inverse_mass(const typename B::Exec& exec, const Level<B>& leve
                      MultiplyByInverseMass<B>{level.model.inverse_mass, x, y});
 }
 
-/// For P and Q, which are K and A, or A and K. Its vectors are not made 1 long: `scale` times v is,
-/// in the product of P.
+/// Lanczos iteration for the products P and Q, which are K and A, or A and K.
+/// Vectors v are not normalised: `scale` times v has length 1 in the inner product of P.
 template <class B>
 class Lanczos {
   using Real = typename B::Real;
@@ -39,9 +39,9 @@ class Lanczos {
   Lanczos(const Exec& exec, const VectorMap<B>& A, const StiffnessAt<B>& K)
       : exec_(exec), A_(A), K_(K), n_(K.level.model.vertices), blocks_(n_) {}
 
-  /// In the product of K, or of A, which always is one, where K is indefinite, as of a compressed
-  /// body: there the iteration in the product of K comes to vectors without a length, and says
-  /// nothing of what is left.
+  /// Returns the largest eigenvalue, from the inner product of K, or of A where K is indefinite.
+  /// K of a compressed body may be indefinite. The iteration in its product then meets vectors
+  /// without a length, and gives no bound. The product of A is always an inner product.
   double largest(double tolerance) {
     const auto A = [this](const Vectors<B>& x, const Vectors<B>& y) { return map(x, y); };
     const auto K = [this](const Vectors<B>& x, const Vectors<B>& y) { return stiffness(x, y); };
@@ -62,14 +62,14 @@ class Lanczos {
 
   struct Found {
     double bound = 0;
-    bool indefinite = false;  ///< P has shown to be: the bound is none
+    bool indefinite = false;  ///< true: P is indefinite, and `bound` is no bound
   };
 
   Vectors<B> vectors(const char* name) const {
     return zeros<Vectors<B>>(name, static_cast<std::size_t>(n_));
   }
 
-  /// P and Q are called as y = P x, and return x.y.
+  /// Iterates with P `product` and Q `other`: each sets y = P x or y = Q x, and returns x.y.
   template <class P, class Q>
   Found iterate(const P& product, const Q& other, double tolerance) {
     fill_from_hash<B>(exec_, "plica::lanczos_start", K_.level.model.inverse_mass, v_, blocks_,

@@ -38,7 +38,8 @@ void constrain(LevelConstants& c, const Body& body, const TetMesh& mesh, int lev
   }
 }
 
-// A region's mass damping acts on its elements' share of a vertex's mass.
+/// Returns the mass damping of each vertex [1/s]; one entry where it is the same everywhere.
+/// A region's mass damping acts on its elements' share of a vertex's mass.
 std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> density,
                                    const std::vector<double>& of_region,
                                    const std::vector<double>& mass) {
@@ -51,7 +52,8 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
   return damping;
 }
 
-/// What the constants of the elements' regions are made of, of the values of their parameters.
+/// Returns the parts that viscous constants of each region are made of, from parameter values.
+/// Empty for a material that is not viscous.
 ShapeConstants shape_constants(const Body& body, const MaterialInfo& material,
                                const LevelConstants& c,
                                const std::vector<std::vector<double>>& values,
@@ -77,8 +79,8 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
   c.element = element_of(body, static_cast<std::size_t>(level));
   const MaterialInfo& material = *find_material(body.material.model);
   std::vector<double> mass_damping;            // per region
-  std::vector<std::vector<double>> values_of;  // likewise
-  std::vector<std::vector<PronyTerm>> prony;   // likewise
+  std::vector<std::vector<double>> values_of;  // per region
+  std::vector<std::vector<PronyTerm>> prony;   // per region
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
     const auto own =
@@ -110,7 +112,7 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
   c.mass_damping = vertex_damping(mesh, c.density, mass_damping, c.mass);
   constrain(c, body, mesh, level);
   c.velocity.assign(mesh.vertices.size(), Point::Zero());
-  // the others take it from there
+  // other levels take their velocities from level 0
   if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);
   return c;
 }

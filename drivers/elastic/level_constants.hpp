@@ -8,17 +8,17 @@
 
 namespace plica {
 
-/// What a level's set-up works out on the host and other parts of the set-up need too.
+/// Constants of a level, computed on the host, that several parts of the set-up need.
 struct LevelConstants {
-  /// per region, its constants; one entry where the mesh names none
+  /// constants of the material per region; one entry where the mesh names no region
   std::vector<std::vector<double>> material;
-  /// likewise with lambda at most 2 mu, where the material has it
+  /// constants per region with lambda at most 2 mu, if the material has a lambda of its own
   std::vector<std::vector<double>> capped;
   std::vector<Lame<double>> lame;  ///< per region, of small strains [Pa]
-  ShapeConstants shape;            ///< of viscous materials: of the elements' constants
-  /// per tetrahedron, where they are not the same everywhere in a region
+  ShapeConstants shape;            ///< parts of the elements' constants; only for viscous materials
+  /// directions per tetrahedron; empty: they do not vary within a region
   std::vector<FibreAxes> fibres;
-  Element element = Element::linear;  ///< of this level
+  Element element = Element::linear;  ///< kind of elements of this level
   std::vector<double> density;        ///< per region [kg/m^3]
   /// per vertex [1/s]; one entry where it is the same everywhere
   std::vector<double> mass_damping;
@@ -26,14 +26,15 @@ struct LevelConstants {
   /// per vertex [kg], a quarter of each of its tetrahedra
   std::vector<double> mass;
   std::vector<char> constrained;       ///< per vertex: its motion is given
-  std::vector<int> prescribed_vertex;  ///< those of them that may move
-  std::vector<int> prescribed_motion;  ///< which of the body's motions each of them follows
-  /// per vertex, where it is free: at the start, level 0 [m/s]
+  std::vector<int> prescribed_vertex;  ///< vertices that follow a given motion
+  std::vector<int> prescribed_motion;  ///< index of the body's motion that each of these follows
+  /// velocity per free vertex at the start of level 0; 0 on other levels [m/s]
   std::vector<Point> velocity;
 };
 
-/// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws
-/// InputError where a selection chooses nothing on this level.
+/// Returns the constants of a level. `mesh` is at rest, before it is placed. `middle`: point that
+/// the initial angular velocity is about [m]. Throws InputError where a selection chooses nothing
+/// on this level.
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle,
                                int level);
 

@@ -11,9 +11,9 @@
 
 namespace plica {
 
-/// The kernels of linear tetrahedra of one material. Each material's and element's are compiled in
-/// a source of their own, which the build writes from elasticity_of.cpp.in: a change of one
-/// material compiles that one only.
+/// Kernels of linear tetrahedra of one material.
+/// Each pair of material and element is compiled in a source of its own, which the build writes
+/// from elasticity_of.cpp.in. So a change of one material compiles only that material.
 template <class B, class Material>
 class LinearElasticity final : public Elasticity<B> {
   using Exec = typename B::Exec;

@@ -14,7 +14,7 @@ namespace plica {
 
 namespace {
 
-/// What its kernels get.
+/// Returns the constants of a material's kernels from its parameters' values.
 template <class M>
 auto constants_of(const std::vector<double>& values) {
   auto c = M::kernel_constants(values.data());
@@ -22,8 +22,8 @@ auto constants_of(const std::vector<double>& values) {
   return c;
 }
 
-/// A law's energy is as many times larger as its stiffnesses are, since its other parameters have
-/// no unit.
+/// Returns the values of a law whose energy is `share` times as large.
+/// Energy is proportional to the parameters in [Pa], and the other parameters have no unit.
 template <class M>
 std::vector<double> scaled_values(std::vector<double> values, double share) {
   for (std::size_t k = 0; k < M::parameters.size(); ++k)
@@ -76,7 +76,7 @@ MaterialInfo describe_material() {
   return info;
 }
 
-/// What is given for a parameter, if anything.
+/// Returns the value that the options give for a parameter, if they do.
 std::optional<double> given(const std::string& name, const MaterialOptions& body,
                             const RegionOptions& region) {
   if (name == parameter::young_modulus.name)
@@ -102,7 +102,7 @@ void check_names(const MaterialInfo& info, const std::string& path,
   }
 }
 
-/// c of mu in the three conventions: mu/alpha^2, mu/alpha, 2 mu/alpha^2.
+/// Returns c of a term by its convention: mu/alpha^2, mu/alpha or 2 mu/alpha^2.
 double ogden_coefficient(const OgdenTerm& term, const std::string& convention) {
   if (convention == "mu_over_alpha") return term.mu / term.alpha;
   return (convention == "mu_over_alpha2" ? 1 : 2) * term.mu / (term.alpha * term.alpha);
@@ -128,8 +128,8 @@ TissueSettings settings_of(const MaterialOptions& body, const RegionOptions& reg
   return s;
 }
 
-/// What the body, or a region of it, must have beside numbers. `path`: "body." or
-/// "body.regions.NAME.".
+/// Throws InputError where terms or fibres of the body, or of a region, do not fit the material.
+/// `path`: "body." or "body.regions.NAME.".
 void check_structure(const MaterialInfo& info, const std::string& path,
                      const std::vector<OgdenTerm>& terms,
                      const std::optional<FibreOptions>& fibres) {
@@ -159,7 +159,7 @@ void check_structure(const MaterialInfo& info, const std::string& path,
     throw InputError(path + "fibres.sheet is along the axis; expected a direction across it");
 }
 
-/// Whether the directions across the fibres matter.
+/// Returns true where a law depends on the directions across the fibres.
 bool needs_sheet(const MaterialInfo& info, const std::vector<double>& values) {
   bool needed = false;
   IsochoricLaws::for_each([&](auto law) {
@@ -169,7 +169,8 @@ bool needs_sheet(const MaterialInfo& info, const std::vector<double>& values) {
   return needed;
 }
 
-/// What `where`, "body.material" or "body.regions.NAME", is to be at rest.
+/// Throws InputError where a material has no stiffness at rest, or lacks fibres or a sheet.
+/// `where`: "body.material" or "body.regions.NAME".
 void check_at_rest(const MaterialInfo& info, const std::string& where, const MaterialOptions& body,
                    const RegionOptions& region) {
   const std::vector<double> values = parameter_values(info, body, region);
@@ -356,8 +357,8 @@ namespace {
 
 constexpr double kPa = 1e3, degree = std::numbers::pi / 180;
 
-/// Values that two sources agree on; both take the tissue for incompressible, bulk_modulus is 50
-/// times mu at rest or more.
+/// Tissue whose values two sources agree on.
+/// Both sources assume incompressible tissue; bulk_modulus here is at least 50 times mu at rest.
 struct Tissue {
   Choice name;
   std::string model;

@@ -7,8 +7,7 @@
 
 namespace plica {
 
-/// What a material says of itself, without its kernels: see kernels/materials/material.hpp for
-/// each.
+/// Properties of a material, without its kernels; kernels/materials/material.hpp explains each.
 struct MaterialInfo {
   std::string_view name;
   std::string_view summary;
@@ -17,33 +16,33 @@ struct MaterialInfo {
   bool recovers;
   bool allows_inversion;
   std::vector<MaterialParameter> parameters;
-  /// What its kernels get, of the values of its parameters in their order.
+  /// Returns the constants of the kernels from the parameters' values, in the parameters' order.
   std::vector<double> (*kernel_constants)(const std::vector<double>& values);
-  /// Lame's constants of its tangent at rest [Pa].
+  /// Returns Lame's constants of the tangent at rest [Pa].
   Lame<double> (*small_strains)(const std::vector<double>& values);
-  /// What its kernels get with another lambda at rest; a null pointer where the material has no
-  /// stiffness for the volume alone.
+  /// Returns the constants of the kernels with another lambda at rest [Pa].
+  /// Null where the material has no stiffness of the volume alone.
   std::vector<double> (*with_lambda)(const std::vector<double>& values, double lambda);
-  /// With the energy of shape times `share` and another bulk modulus [Pa]; a null pointer where it
-  /// has no shape of its own.
+  /// Returns the constants with the energy of shape times `share` and another bulk modulus [Pa].
+  /// Null where the material does not split shape from volume.
   std::vector<double> (*with_shape)(const std::vector<double>& values, double share,
                                     double bulk) = nullptr;
-  bool of_tissue = false;  ///< it has TissueSettings: behind its parameters' values
+  bool of_tissue = false;  ///< true: TissueSettings follow the parameters' values
   bool has_fibres = false;
   bool has_terms = false;
 };
 
-/// Those of kernels/materials/list.hpp, in its order.
+/// Returns the materials of kernels/materials/list.hpp, in the order there.
 const std::vector<MaterialInfo>& material_list();
 
-/// The one of that name, or a null pointer.
+/// Returns the material of a name, or a null pointer.
 const MaterialInfo* find_material(std::string_view name);
 
-/// Those given by Young's modulus and Poisson's ratio.
+/// Returns the names of the materials that Young's modulus and Poisson's ratio define.
 std::vector<std::string> materials_of_two_constants();
 
-/// The values of its parameters, in their order: the region's where it has one of its own, else the
-/// body's, else the standard; then the settings of laws of tissue.
+/// Returns the values of a material's parameters, in their order, then the settings of tissue laws.
+/// A value is the region's, where it has one, else the body's, else the standard one.
 std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOptions& body,
                                      const RegionOptions& region);
 
@@ -51,20 +50,21 @@ std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOpt
 /// none of the material's parameters, is missing, or leaves the body without stiffness at rest.
 void check_parameters(const MaterialInfo& info, const Body& body);
 
-/// Young's modulus at rest [Pa]: as given, or of small strains where the material has no such
-/// parameter.
+/// Returns Young's modulus at rest [Pa].
+/// It is that of small strains where the material has no such parameter.
 double stiffness_at_rest(const MaterialOptions& material);
-/// The P-wave modulus at rest, lambda + 2 mu [Pa]: much more than Young's where the volume hardly
-/// changes.
+/// Returns the P-wave modulus at rest, lambda + 2 mu [Pa].
+/// It is much larger than Young's modulus where the material is nearly incompressible.
 double p_wave_modulus(const MaterialOptions& material);
 
-/// Whether elements of that material may be inverted: by its options, or where they say nothing by
-/// the material.
+/// Returns true where elements of a material may be inverted.
+/// The options decide, or the material itself where the options say nothing.
 bool allows_inversion(const MaterialOptions& material);
-/// Whether inverted elements of that material are pushed back; false for a name it does not know.
+/// Returns true where a material pushes inverted elements back; false for an unknown name.
 bool recovers(std::string_view material);
 
-/// The material of one of tissues(), with the values of its source. InputError for another name.
+/// Returns the material of one of tissues(), with the values of its source.
+/// Throws InputError for another name.
 MaterialOptions tissue_material(std::string_view name);
 
 }  // namespace plica

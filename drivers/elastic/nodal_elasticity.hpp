@@ -6,12 +6,13 @@
 
 namespace plica {
 
-/// In another source: that of the linear elements.
+/// Returns the kernels of linear elements; defined in another source.
 template <class B, class Material>
 std::unique_ptr<Elasticity<B>> make_linear_elasticity();
 
-/// The kernels of nodal elements of one material. A matrix would have four times the blocks of that
-/// of linear elements, which are assembled instead, to precondition with.
+/// Kernels of nodal elements of one material.
+/// A matrix of nodal elements would have four times the blocks of that of linear elements. So
+/// blocks() assembles linear elements, for preconditioners.
 template <class B, class Material>
 class NodalElasticity final : public Elasticity<B> {
   using Exec = typename B::Exec;

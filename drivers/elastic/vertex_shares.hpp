@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// Which rows of a kernel's sums are a vertex's.
-/// @param vertex_of_row  negative: of no vertex
+/// Returns for each vertex the rows of a kernel's sums that belong to it.
+/// @param vertex_of_row  vertex of each row; negative: the row belongs to none
 template <class B>
 VertexShares<B> vertex_shares(std::span<const int> vertex_of_row, std::size_t vertices) {
   const Grouping rows(vertex_of_row, vertices);

@@ -10,18 +10,18 @@ namespace plica {
 
 namespace {
 
-/// constants = whole + 2 share (half - whole)
+/// Kernel that scales the energy of shape: constants = whole + 2 share (half - whole).
 template <class B>
 struct ScaleShape {
   Scalars<B> whole, half, to, share;
   Indices<B> set_region;
-  int of_set;  ///< constants
+  int of_set;  ///< number of constants in a set
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     to(i) = whole(i) + 2 * share(set_region(i / of_set)) * (half(i) - whole(i));
   }
 };
 
-/// Of each set of the level's constants its region.
+/// Returns the region of each set of the level's constants.
 template <class B>
 std::vector<int> regions_of_sets(const TetMesh& mesh, const Level<B>& level) {
   std::vector<int> regions;
@@ -49,7 +49,7 @@ Scalars<B> constants_of_sets(const char* name, const std::vector<int>& regions,
   return to_device<Scalars<B>>(name, all);
 }
 
-/// Of each pack of elements or rows its region.
+/// Returns the region of each pack of elements or rows.
 template <class B>
 std::vector<int> regions_of_packs(const TetMesh& mesh, const Level<B>& level) {
   std::vector<int> regions;
@@ -110,7 +110,7 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   stepped_ = none;
 }
 
-/// What depends on the time from the memory's alone.
+/// Computes the values of steps_ for a time t [s] after that of the memory.
 template <class B>
 void Viscosity<B>::step_over(const Exec& exec, double t) {
   if (t == stepped_) return;
@@ -140,7 +140,8 @@ void Viscosity<B>::look_at(const Exec& exec, const Level<B>& level, double time)
   looked_ = t;
 }
 
-/// The constants' energy of shape is without what is lost over that time.
+/// Sets the model's constants for a time t [s] after that of the memory.
+/// Their energy of shape is without the part that relaxes over that time.
 template <class B>
 void Viscosity<B>::take_share(const Exec& exec, double t) {
   if (t == shared_) return;

@@ -8,38 +8,41 @@
 
 namespace plica {
 
-/// Per region the Prony series and kernel constants of which those of a viscous material's steps
-/// are made. They are linear in the energy of shape, so that two of them say all.
+/// Prony series and kernel constants per region, for the steps of a viscous material.
+/// Constants are linear in the energy of shape, so that two sets of them define all others.
 struct ShapeConstants {
   std::vector<std::vector<PronyTerm>> prony;
-  std::vector<std::vector<double>> half;       ///< half of the energy of shape
-  std::vector<std::vector<double>> isochoric;  ///< all of it, and none of the volume
+  std::vector<std::vector<double>> half;  ///< constants with half of the energy of shape
+  /// constants with all of the energy of shape and none of the volume
+  std::vector<std::vector<double>> isochoric;
 };
 
-/// The relaxation of one level's stresses: kernels/elastic/stress_memory.hpp says how. It knows
-/// them at one time, and takes forces at later ones from there. Only remember() moves it on, by the
-/// time that has passed: once more at the same time and state it changes nothing. So whatever
-/// evaluates forces may do so as often as it likes; whoever accepts a state remembers it.
+/// Relaxation of one level's stresses, by the rules of kernels/elastic/stress_memory.hpp.
+/// The memory has the stresses at one time. Forces at later times are computed from it. Only
+/// remember() advances the memory, by the time that has passed; a second call at the same time and
+/// state changes nothing. So forces may be evaluated at any number of trial states. Code that
+/// accepts a state calls remember().
 template <class B>
 class Viscosity {
  public:
   using Exec = typename B::Exec;
 
-  /// Of a level that is built: makes level.stress. `rule` is one of relaxation_rules().
+  /// Makes the relaxation of a level that is built, and level.stress.
+  /// `rule` is one of relaxation_rules().
   Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh,
             Level<B>& level);
 
-  /// The displacements u are the body's at `time` [s].
+  /// Advances the memory to the displacements u of the body at `time` [s].
   void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u,
                 double time);
-  /// Constants and level.stress.lost for forces at `time` [s].
+  /// Sets the model's constants and the relaxed stress level.stress.lost for forces at `time` [s].
   void look_at(const Exec&, const Level<B>&, double time);
-  /// The constants of the material at once.
+  /// Sets the model's constants of the instantaneous response, without relaxation.
   void look_at_once(const Exec& exec) { take_share(exec, 0); }
-  /// The clock is set to another time [s].
+  /// Sets the time of the memory [s].
   void set_time(double time) { time_ = time, looked_ = none; }
 
-  /// What it carries from step to step.
+  /// Snapshot of the values that are carried from step to step.
   struct Kept {
     Scalars<B> memory;
     double time = 0;
@@ -54,14 +57,14 @@ class Viscosity {
   static constexpr double none = -1;
 
   RelaxationSteps<B> steps_;
-  Scalars<B> constants_;     ///< the model's own
-  Indices<B> set_region_;    ///< of each set of these
-  Scalars<B> whole_, half_;  ///< with all of the energy of shape and half of it
+  Scalars<B> constants_;     ///< the model's own constants, in sets
+  Indices<B> set_region_;    ///< [sets] region of each set
+  Scalars<B> whole_, half_;  ///< constants with all and with half of the energy of shape
   Scalars<B> isochoric_;
-  double time_ = 0;        ///< of the memory [s]
-  double shared_ = 0;      ///< time from the memory's that the model's constants are for [s]
-  double stepped_ = none;  ///< likewise steps_
-  double looked_ = none;   ///< likewise level.stress.lost
+  double time_ = 0;        ///< time of the memory [s]
+  double shared_ = 0;      ///< time since time_ that the model's constants are for [s]
+  double stepped_ = none;  ///< time since time_ that steps_ are for [s]
+  double looked_ = none;   ///< time since time_ that level.stress.lost is for [s]
 
   void step_over(const Exec& exec, double t);
   void take_share(const Exec& exec, double t);

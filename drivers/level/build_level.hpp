@@ -7,11 +7,11 @@
 
 namespace plica {
 
-/// What nodal elements have beside them to precondition implicit steps: linear ones, of which a
-/// matrix is assembled, and rows in float.
+/// Additional data of nodal elements, to precondition implicit steps: none; linear elements, of
+/// which a matrix is assembled; or these and rows in float.
 enum class BesideNodal { nothing, matrix, matrix_and_rows };
 
-/// Model, state and work arrays of a level. No transfers, no surface.
+/// Builds model, state and work arrays of a level, without transfers and surface.
 template <class B>
 Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
                      BesideNodal beside = BesideNodal::nothing);

@@ -9,31 +9,32 @@ namespace plica {
 template <class B>
 class SolverLevel;
 
-/// One level's ODE solver.
+/// Integrator in time of one level: its ODE solver.
 template <class B>
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found anew in
+  /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found again in
   /// every step.
   virtual void advance(SolverLevel<B>& level, double time, double h, int steps) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Device memory of its own.
+  /// Returns the size of the integrator's own device memory [bytes].
   virtual std::size_t bytes() const { return 0; }
-  /// The largest part of its forces that a stage of the last advance() left unbalanced, or the
-  /// relative residual of its one linear solve; 0 where there are none.
+  /// Returns the largest part of its forces that a stage of the last advance() left unbalanced. For
+  /// a stage of one linear solve it is the relative residual of that; 0 where there are none.
   virtual double residual() const { return 0; }
-  /// Whether it tells what it has not solved.
+  /// Returns whether unsolved() tells which steps were not solved.
   virtual bool judges() const { return false; }
-  /// The largest part of the forces that a step of the last advance() left unbalanced where it was
-  /// not solved; 0: all were.
+  /// Returns the largest part of the forces that an unsolved step of the last advance() left
+  /// unbalanced; 0: all steps were solved.
   virtual double unsolved() const { return 0; }
-  /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it
-  /// is.
+  /// Returns why the result of the last advance() is not valid, as a sentence for the user; empty
+  /// where it is valid.
   virtual std::string failure() const { return {}; }
-  /// The state was replaced: what it carries from the steps before does not belong to it.
+  /// Forgets what is carried from earlier steps, which does not belong to a state that was
+  /// replaced.
   virtual void forget() {}
-  /// Names what it carries from one macro step to the next, for saving and restoring.
+  /// Names to the archive what is carried from one macro step to the next, to save and restore it.
   virtual void persist(StateArchive<B>&) {}
 };
 

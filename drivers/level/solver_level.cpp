@@ -35,7 +35,7 @@ void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
   if (contact_) response_ = ContactResponse<B>(contact_, *this, implicit);
   const NodalRows<B>& rows = this->model.rows;
-  // smoothed pressures need both fields once more
+  // not with smoothed pressures, which need both fields once more
   if (implicit && rows.slices > 0 && rows.excess.extent(0) == 0)
     this->nodal.gradient =
         zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));

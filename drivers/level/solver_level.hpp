@@ -16,104 +16,111 @@ namespace plica {
 template <class B>
 class Integrator;
 
-/// One resolution of the body at work: its data, all forces on it (internal, gravity, loads,
-/// contact, the caller's), what integrates it and its part of the macro step. Forces that the scene
-/// does not have are not there. Kernels go to the hierarchy's instance, whose clock books their
-/// time under this level's number.
+/// One resolution of the body in a run: its data, all forces on it, its integrator and its part of
+/// the macro step. Forces are internal ones, gravity, loads, contact and the caller's; those that
+/// the scene does not have are absent. Kernels run in the hierarchy's execution space, whose clock
+/// adds their time under this level's number.
 template <class B>
 class SolverLevel : public Level<B> {
  public:
   using Exec = typename B::Exec;
 
-  /// A level without forces or integrator yet. The clock must outlive it.
+  /// Makes a level without forces and integrator. The clock must outlive it.
   SolverLevel(Level<B>&& data, StageClock<B>& clock, int number);
   SolverLevel(SolverLevel&&) noexcept;
   ~SolverLevel();
 
-  /// What acts on it from now on. `implicit`: it will be linearised.
+  /// Sets the forces that act on the level from now on. `implicit`: they will be linearised.
   void set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                   std::shared_ptr<const Contact<B>> contact, bool implicit);
 
   std::unique_ptr<Integrator<B>> integrator;
-  std::unique_ptr<Viscosity<B>> viscosity;  ///< of viscous materials only
-  double share = 1;                         ///< of the macro step
-  int substeps = 1;                         ///< in its share
+  std::unique_ptr<Viscosity<B>> viscosity;  ///< only with viscous materials
+  double share = 1;                         ///< part of the macro step, from 0 to 1
+  int substeps = 1;                         ///< number of sub-steps in the level's share
 
   const Exec& exec() const { return clock_->exec(); }
 
-  /// The level's state at this time [s] is one that it has been through: what relaxes takes it into
-  /// account. At the start of every step, and wherever else a state is final.
+  /// Adds the level's state at this time [s] to the history from which stresses relax. To be called
+  /// at the start of every step, and wherever else a state is final.
   void remember(double time) const {
     if (viscosity) viscosity->remember(exec(), *this, *elasticity_, this->state.u, time);
   }
 
-  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default
-  /// that of a state that stays. They act for `weight` of the time [s], which is what the
-  /// obstacles' impulse counts.
+  /// Computes f = all forces on a state of this level at a time [s]. `step`: how contact is taken,
+  /// by default that of a state that stays. `weight`: how long the forces act [s], for the impulse
+  /// of the obstacles.
   void evaluate(const State<B>& state, double time, const Vectors<B>& f,
                 const ContactStep& step = {}, double weight = 0);
-  /// The same but for contact.
+  /// Computes f = all forces without contact on a state of this level at a time [s].
   void evaluate_without_contact(const State<B>& state, double time, const Vectors<B>& f);
-  /// Counts the last evaluation's contact for `weight` more [s]; at the level's state.
+  /// Adds the last evaluation's contact force for `weight` more [s] to the impulse of the
+  /// obstacles. The evaluation was at the level's state.
   void add_last_impulse(double time, double weight) const {
     response_.add_impulse(exec(), *this, this->state, time, weight);
   }
-  /// Counts the contact of an implicit step's end, at the level's state.
+  /// Adds the contact force at an implicit step's end to the impulse of the obstacles, at the
+  /// level's state.
   void count_contact(double time, const CarriedImpulse& of);
 
-  /// Volumes and pressures of its cavities at its state; waits.
+  /// Returns volumes and pressures of the level's cavities at its state. Waits.
   std::vector<CavityState> cavities(double time) const;
-  /// Of pressures that follow it, at its state [J]: what their forces are the negative derivative
-  /// of, where their triangles enclose a volume; waits there.
+  /// Returns the energy of the pressures that follow the body, at the level's state [J]. Their
+  /// forces are its negative derivative. Only pressures whose triangles enclose a volume count;
+  /// waits where there are some.
   double follower_energy(double time) const;
-  /// q += scale K p, K the stiffness of the pressures that follow the body, at the state and time
-  /// of the last evaluation: its symmetric part, with `positive` that of the fluids alone.
+  /// Adds scale K p to q, with K the stiffness of the pressures that follow the body. K is its
+  /// symmetric part, at the state and time of the last evaluation; with `positive`, that of the
+  /// fluids alone.
   void add_follower_product(const State<B>& state, const Vectors<B>& p, double scale, bool positive,
                             const Vectors<B>& q) const;
 
-  /// f = those that do not depend on the state: gravity, loads, a correction.
+  /// Computes f = the forces that do not depend on the state: gravity, loads, a correction.
   void dead(double time, const Vectors<B>& f) const;
 
-  /// Linearises about a state for an implicit stage: f as above with loads `ahead` of it [s],
-  /// without contact.
+  /// Linearises about a state for an implicit stage. Computes f = all forces without contact, with
+  /// loads at a time `ahead` of the state's [s].
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead,
                  const Vectors<B>& f);
-  /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights.
-  /// `positive`: see Elasticity::tangent.
+  /// Computes q = A p, with A = (1 + b c) M + a K + contact at the linearised state; see
+  /// ImplicitWeights. `positive`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
                bool positive, const Vectors<B>& q) const;
-  /// q += what contact and a caller's forces add to it
+  /// Adds to q what contact and a caller's forces add to A p.
   void add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
                                    const Vectors<B>& q) const;
+  /// Returns whether contact or a caller's forces act on the level.
   bool acts_beside_elements() const { return contact_ || external_; }
-  /// q += what of that assemble() leaves out: pressures that follow the body, and contact that
+  /// Adds to q what assemble() leaves out of A p: pressures that follow the body, and contact that
   /// couples several tetrahedra.
   void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p,
                                  const ImplicitWeights& weights, bool positive,
                                  const Vectors<B>& q) const;
+  /// Returns whether assemble() leaves nothing out of A.
   bool is_all_in_matrix() const {
     return this->followers.empty() && !(contact_ && contact_->couples());
   }
-  /// A's vertex blocks but for contact's, [vertices][6] xx yy zz xy xz yz; see
+  /// Computes A's vertex blocks without those of contact, [vertices][6] xx yy zz xy xz yz; see
   /// Elasticity::diagonal.
   void diagonal(const State<B>& state, const ImplicitWeights& weights, bool positive,
                 const Blocks<B>& blocks) const;
-  /// A itself, in blocks, with nodal elements that of linear ones; `positive`: of elements whose
-  /// tangents are projected to positive semi-definite ones.
+  /// Assembles A in blocks; with nodal elements, that of the linear elements of the same mesh.
+  /// `positive`: the elements' tangents are projected to positive semi-definite ones.
   void assemble(const State<B>& state, const ImplicitWeights& weights, bool positive,
                 const PatchPairs<B>& pairs, const Blocks9<B>& shares,
                 const BlockMatrix<B>& A) const;
-  /// Projected tangents of the state that was linearised last, where elements keep them.
+  /// Computes and stores the projected tangents of the state that was linearised last, where
+  /// elements keep them.
   void keep_tangents();
-  /// partial = the shares of -K p at a state; see Elasticity::tangent.
+  /// Computes partial = the shares of -K p at a state; see Elasticity::tangent.
   void tangent(const State<B>& state, const Vectors<B>& p, double over = 0,
                bool positive = false) const;
 
-  /// The energy [J] whose derivative the elastic forces of the last evaluation are, in the x
-  /// components of `partial`.
+  /// Computes the energy [J] whose derivative gives the elastic forces of the last evaluation, in
+  /// the x components of `partial`.
   void incremental_energy(const State<B>& state) const;
 
-  /// Books work() under a stage of this level.
+  /// Runs work() and adds its time to a stage of this level.
   template <class Work>
   void book(const char* stage, const Work& work) const {
     clock_->time(stage, number_, work);
@@ -124,19 +131,21 @@ class SolverLevel : public Level<B> {
   const ContactResponse<B>& response() const { return response_; }
   bool asks_caller() const { return static_cast<bool>(external_); }
   long evaluations() const { return evaluations_; }
-  /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at
-  /// rest [m].
+  /// Sets the function that adds a caller's forces from now on; an empty one ends that. `rest`: the
+  /// level's vertices at rest [m].
   void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
-  /// A constant force [N] that is part of every evaluation from now on; an empty one ends that.
+  /// Sets a constant force [N] that is part of every evaluation from now on; an empty one ends
+  /// that.
   void set_correction(const Vectors<B>& force) { correction_ = force; }
   void add_correction(const Vectors<B>& f) const;
-  /// What it carries from one macro step to the next, where the state was set.
+  /// Forgets what is carried from one macro step to the next, which does not belong to a state that
+  /// was replaced.
   void forget();
-  /// Names what it carries from one macro step to the next, its integrator's included; `name`:
-  /// "level 0's ".
+  /// Names to the archive what the level and its integrator carry from one macro step to the next.
+  /// `name`: "level 0's ".
   void persist(StateArchive<B>& archive, const std::string& name);
-  /// Evaluations are numbered from 1 in each macro step, for the element flags; impulses are
-  /// counted anew. `part`: of a whole step.
+  /// Begins a macro step: numbers evaluations from 1 again, for the element flags, and sets the
+  /// impulses to zero. `part`: its length over that of a whole macro step.
   void begin_macro_step(double part = 1) {
     evaluation_ = 0;
     response_.set_part(part);
@@ -154,31 +163,33 @@ class SolverLevel : public Level<B> {
   ExternalForces<B> external_;
   Vectors<B> rest_;
   Vectors<B> correction_;
-  Blocks<B> external_stiffness_;  ///< implicit levels only
+  Blocks<B> external_stiffness_;  ///< only on implicit levels
   long evaluations_ = 0;
   int evaluation_ = 0;
-  BlockSums<B> volumes_;      ///< of cavities
-  Doubles<B> rate_;           ///< [1] likewise
-  double follower_time_ = 0;  ///< when pressures were last asked for [s]
-  Vectors<B> linearised_;     ///< what gradients are kept of
+  BlockSums<B> volumes_;      ///< sums over blocks, for the volumes of cavities
+  Doubles<B> rate_;           ///< [1] rate of a cavity's volume
+  double follower_time_ = 0;  ///< time at which pressures were last asked for [s]
+  Vectors<B> linearised_;     ///< displacements whose gradients are kept
 
   void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
-  /// A state as tangents take it: none where gradients of it are kept.
+  /// Returns the displacements from which tangents are computed: none where gradients of them are
+  /// kept.
   Vectors<B> unless_kept(const State<B>& at) const {
     return linearised_.extent(0) > 0 && linearised_.data() == at.u.data() ? Vectors<B>() : at.u;
   }
   void ask_caller(const State<B>& state, double time, double step, double ahead,
                   const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
-  /// Pressures that follow the state.
+  /// Adds the pressures that follow the state.
   void add_followers(const State<B>& state, double time, const Vectors<B>& f);
   GivenPressure<B> given_pressure(const FollowerLoad<B>& load, double time) const;
   void measure(const FollowerLoad<B>& load, const Vectors<B>& u) const;
-  /// at its state, up to a constant [m^3]
+  /// Returns the volume that a load's triangles enclose at the level's state, up to a constant
+  /// [m^3].
   double enclosed_volume(const FollowerLoad<B>& load) const;
-  /// Of the volume that was last measured.
+  /// Returns the pressure of the fluid at the volume that was last measured.
   FluidPressure<B> last_pressure(const FollowerLoad<B>& load, double time) const;
-  /// Of a cavity, up to its caps [m^3].
+  /// Returns the given volume of a cavity, less that of its caps [m^3].
   double volume_given(const FollowerLoad<B>& load, double time) const;
 };
 

@@ -12,9 +12,10 @@ namespace plica {
 
 namespace {
 
-/// One block of one element, as one number to sort by: the pair of vertices it is for, by their
-/// numbers in the patch, the lower one of the mesh first; whether it is for them turned round; and
-/// where it stands among the patch's element blocks.
+/// Block of one element for a pair of vertices, as one number to sort by.
+/// It has the two vertices' numbers in the patch, first the vertex with the lower number in the
+/// mesh; then whether the block is transposed for this order; then its slot among the element
+/// blocks of the patch.
 struct ElementPair {
   std::uint64_t key;
 
@@ -28,17 +29,17 @@ struct ElementPair {
   std::uint16_t slot() const { return static_cast<std::uint16_t>(key); }
 };
 
-/// A pair of a patch's vertices, by their numbers in the mesh: its element blocks [begin, straight)
-/// as they are, [straight, end) turned.
+/// Pair of a patch's vertices, by their numbers in the mesh, and the range of its element blocks.
+/// Blocks [begin, straight) are added as they are, blocks [straight, end) transposed.
 struct PairOfPatch {
   int first, second;
   std::size_t begin, straight, end;
-  int place = -1;  ///< of its block in the matrix
+  int place = -1;  ///< place of the pair's block in the matrix
 };
 
-/// Of one patch.
+/// Pairs of vertices of one patch.
 struct PairsOfPatch {
-  std::vector<std::uint16_t> slot;  ///< of the element blocks, pair by pair
+  std::vector<std::uint16_t> slot;  ///< slots of the element blocks, pair by pair
   std::vector<PairOfPatch> pair;
 };
 
@@ -90,8 +91,8 @@ class PatternBuilder {
   Host<Indices<B>> element_;
   std::vector<PairsOfPatch> patch_;
   HostPattern pattern_;
-  std::vector<int> patches_of_;  // [blocks that are stored] how many have the pair
-  // [blocks that are stored] the next one, of what several patches have
+  std::vector<int> patches_of_;  // [stored blocks] number of patches that have the pair
+  // [stored blocks] next share of a block that several patches have; -1: none yet
   std::vector<int> share_of_;
   std::vector<int> first_pair_{0}, first_shared_, first_slot_{0}, first_turned_, place_;
   std::vector<std::uint16_t> slot_;
@@ -154,7 +155,7 @@ class PatternBuilder {
     pattern_ = {std::move(first), std::move(column)};
   }
 
-  /// Of a pair's block in the matrix.
+  /// Returns the place of a pair's block in the matrix.
   int place_of(const PairOfPatch& pair) const {
     const auto [a, b] = is_free(pair.first) ? std::pair(pair.first, pair.second)
                                             : std::pair(pair.second, pair.first);
@@ -172,15 +173,16 @@ class PatternBuilder {
 
   bool is_shared(const PairOfPatch& pair) const { return patches_of_[index_of(pair.place)] > 1; }
 
-  /// Those that other patches have too last; then by how many blocks they have, so that a processor
-  /// foresees the ends of their sums.
+  /// Sorts a patch's pairs: first those of this patch alone, then those that other patches have
+  /// too. Within each part they are sorted by their number of blocks, so that a processor predicts
+  /// where sums end.
   void sort_pairs(int p) {
     std::ranges::sort(patch_[index_of(p)].pair, {}, [&](const PairOfPatch& a) {
       return std::tuple(is_shared(a), a.straight - a.begin, a.end - a.begin, a.first, a.second);
     });
   }
 
-  /// Shares of a block follow each other in the order of the patches.
+  /// Adds the pairs of a patch. Shares of a block follow each other in the order of the patches.
   void add_patch(const PairsOfPatch& patch) {
     int own = 0;
     for (const PairOfPatch& pair : patch.pair) {

@@ -6,28 +6,28 @@
 
 namespace plica {
 
-/// Which blocks a level's matrix has, and where its elements go in it.
+/// Pattern of a level's matrix: its blocks, and the place of each element's blocks in it.
 ///
-/// An element has six blocks, one for every two of its vertices. Those of a patch's elements are
-/// added up where the patch works, and leave it once per pair of vertices. A pair that no other
-/// patch has goes straight to the matrix; one that several have goes to the shares, which are added
-/// up in the order of the patches:
+/// An element has six blocks, one for every two of its vertices. The kernel of a patch sums the
+/// blocks of its elements, and writes one block per pair of vertices. A pair that no other patch
+/// has goes straight to the matrix. A pair of several patches goes to the shares, which are summed
+/// in the order of the patches:
 ///
 ///   elements of a patch    (1,2) of e0   (1,2) of e1        (2,5) of e1   (2,5) of e2
 ///                               \_________/                      \_________/
-///   pairs of the patch             (1,2)                            (2,5)           other patches: (2,5)  (2,5)
-///                                    |                                 \__________________  ________/______/
-///   matrix                 blocks (1,2) and (2,1)                       blocks (2,5) and (5,2): the sum of the shares
+///   pairs of the patch             (1,2)                            (2,5)     other patches: (2,5)
+///                                    |                                 \____________  ________/
+///   matrix                 blocks (1,2) and (2,1)     blocks (2,5) and (5,2): sum of the shares
 ///
-/// So every number is a sum in an order that depends on the mesh alone, whatever the number of
-/// threads.
+/// So every number is a sum in an order that depends on the mesh alone, for any number of threads.
 template <class B>
 struct BlockPattern {
-  BlockMatrix<B> matrix;  ///< its values zero
+  BlockMatrix<B> matrix;  ///< matrix with all values 0
   PatchPairs<B> pairs;
 };
 
-/// Rows of vertices with a zero inverse mass have their own block alone.
+/// Returns the pattern of a model's matrix.
+/// A row of a vertex with a zero inverse mass has only its own block.
 template <class B>
 BlockPattern<B> block_pattern(const Model<B>& model);
 

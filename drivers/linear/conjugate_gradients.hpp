@@ -9,14 +9,15 @@
 
 namespace plica {
 
-/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is
-/// costly to fit is kept from step to step. It is fitted again when the stage's weights change, or
-/// when solves took `patience` iterations more than its first solve needed for the same number of
-/// digits, which is about what fitting costs. A solve that multigrid does not finish in
-/// `most_cycles` iterations, or in which it turns out not to be positive definite, is finished by
-/// the vertex blocks alone; after two such solves in a row it is not used any more (nodal elements
-/// of a material that stiffens exponentially, whose coarser levels are those of linear ones).
-/// Solves to a residual start from a guess by the last solutions.
+/// Conjugate gradients, with or without a matrix, with any preconditioner.
+/// A preconditioner that is costly to fit is kept from step to step. It is fitted again when the
+/// stage's weights change, or when solves together took `patience` iterations more than its first
+/// solve needed for the same number of digits. That is about the cost of a fit. A solve that
+/// multigrid does not finish in `most_cycles` iterations, or in which multigrid is not positive
+/// definite, is finished by the vertex blocks alone. After two such solves in a row multigrid is
+/// not used any more. This happens with nodal elements of a material that stiffens exponentially,
+/// where coarser levels are those of linear elements. Solves to a residual start from a guess by
+/// the last solutions.
 struct ConjugateGradients {
   static constexpr const char* name = "conjugate_gradients";
   static constexpr const char* summary = "preconditioned, with or without a matrix";
@@ -101,11 +102,11 @@ struct ConjugateGradients {
     ImplicitOptions options_;
     StageSystem<B> system_;
     Krylov<B> krylov_;
-    std::unique_ptr<Preconditioner<B>> preconditioner_;  ///< none: the vertex blocks
+    std::unique_ptr<Preconditioner<B>> preconditioner_;  ///< null: the vertex blocks
     std::optional<LastSolutions<B>> last_;
-    /// of a solution, where the preconditioner has given up
+    /// part of a solution that is found after the preconditioner has given up
     Vectors<B> rest_;
-    long fitted_ = 0, fits_ = 0, given_up_ = 0;  ///< given_up_: solves in a row
+    long fitted_ = 0, fits_ = 0, given_up_ = 0;  ///< given_up_: number of solves in a row
     double a_ = 0, b_ = 0, per_decade_ = 0, spent_ = 0;
     bool restored_ = false;
 
@@ -116,7 +117,7 @@ struct ConjugateGradients {
       return out;
     }
 
-    /// From x with the residual r by the vertex blocks alone.
+    /// Finishes a solve from x with the residual r, by the vertex blocks alone.
     KrylovOutcome finish(const Exec& exec, const KrylovOutcome& before, const Vectors<B>& r,
                          const Vectors<B>& x, double tolerance) {
       const double left = before.relative_residual;

@@ -39,7 +39,7 @@ void CycleProduct<B>::prepare(const SolverLevel<B>& level, const State<B>& state
   const auto convert_to = [&](const auto& from, const auto& to) {
     convert(exec, "plica::cycle_values", from, to);
   };
-  if (!forces_) {  // what does not change
+  if (!forces_) {  // masses and damping do not change
     convert_to(level.model.mass, level_.model.mass);
     convert_to(level.model.damping.of_vertex, level_.model.damping.of_vertex);
   }

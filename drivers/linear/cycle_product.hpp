@@ -7,23 +7,24 @@
 
 namespace plica {
 
-/// Products with the system A of an implicit stage of nodal elements, in float, for the finest
-/// polynomial of a V-cycle. Without what has no part in the vertex blocks either: smoothed
-/// pressures, and pressures that follow the body.
+/// Products with the system A of an implicit stage of nodal elements, in float.
+/// They are for the polynomial on the finest level of a V-cycle. Smoothed pressures, and pressures
+/// that follow the body, are left out, as in the vertex blocks.
 template <class B>
 class CycleProduct {
  public:
   using Exec = typename B::Exec;
   using F = Backend<float, Exec>;
 
-  /// @param level            its model has the rows in float
-  /// @param inverse_diagonal of A's vertex blocks, as they are at each moment
+  /// @param level             level whose model has the rows in float
+  /// @param inverse_diagonal  inverses of A's vertex blocks; later changes of the array are seen
   CycleProduct(const Level<B>& level, std::string_view material, const Blocks<B>& inverse_diagonal);
 
-  /// Takes over A, as StageSystem::prepare(). It reads contact where that is at each product.
+  /// Sets A to the system of a level at `state`, see StageSystem::prepare().
+  /// Contact is not copied: each product reads it from the level.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
                bool positive);
-  /// q = A p, to Vectors or SlotVectors, whose slots are the vertices.
+  /// Sets q = A p. `To` is Vectors or SlotVectors, whose slots are the vertices.
   template <class To>
   void apply(const Exec& exec, const Vectors<F>& p, const To& q) const;
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
@@ -34,7 +35,7 @@ class CycleProduct {
   std::unique_ptr<Elasticity<F>> elasticity_;
   Blocks<B> inverse_diagonal_;
   Vectors<F> u_;
-  Vectors<B> p_, beside_;  ///< of what is not from elements
+  Vectors<B> p_, beside_;  ///< vectors of the product with the part of A that is not from elements
   const SolverLevel<B>* forces_ = nullptr;
   ImplicitWeights weights_;
   bool positive_ = false;

@@ -8,9 +8,10 @@
 
 namespace plica {
 
-/// Factorises the assembled matrix on the host, L D L^T with fill-reducing order (Eigen's
-/// SimplicialLDLT), the order and the pattern of L kept from the first solve. For small systems,
-/// where the host reads the matrix.
+/// Direct solver: factorises the assembled matrix on the host.
+/// The factors are L D L^T with a fill-reducing order (Eigen's SimplicialLDLT). The order and the
+/// pattern of L are kept from the first solve. For small systems, where the host can read the
+/// matrix.
 struct Direct {
   static constexpr const char* name = "direct";
   static constexpr const char* summary =
@@ -29,7 +30,7 @@ struct Direct {
                  bool positive) override {
       factorise(level, state, weights, positive);
       if (positive || !projects_ || !indefinite()) return;
-      factorise(level, state, weights, true);  // its answer would climb
+      factorise(level, state, weights, true);  // an indefinite A may raise the energy
       ++projected_;
     }
 
@@ -67,12 +68,13 @@ struct Direct {
     bool projects_;
     long projected_ = 0;
     Matrix lower_;
-    std::vector<std::pair<int, int>> entries_;  ///< of lower_, in order: block and number in it
+    /// [values of lower_] block of the matrix that has the value, and the number in the block
+    std::vector<std::pair<int, int>> entries_;
     Eigen::SimplicialLDLT<Matrix> factor_;
     Eigen::Index nonzeros_ = 0;
 
-    /// Whether a row has more than its own block. Where its motion is given it has not, and its
-    /// column is left out.
+    /// Returns true where a row has more than its own block.
+    /// A vertex whose motion is given has only its own block, and its column is left out.
     static bool coupled(const BlockMatrix<B>& A, int a) { return A.first(a + 1) - A.first(a) > 1; }
 
     bool indefinite() const {

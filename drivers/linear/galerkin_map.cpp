@@ -8,22 +8,23 @@ namespace plica {
 
 namespace {
 
-/// Rows of blocks, each of which is a sum.
+/// Rows of blocks, where each block is a sum of terms.
 template <class B>
 struct RowsOfSums {
-  std::vector<int> first{0}, column;  ///< of the blocks of a row, ascending
+  std::vector<int> first{0}, column;  ///< columns of the blocks of a row, ascending
   BlockTerms<B> terms;
 };
 
-/// Of some rows, one after the other.
+/// Numbers of blocks and terms of some rows, one row after the other.
 struct CountedRows {
-  std::vector<int> blocks;         ///< of each row
-  std::vector<int> column, terms;  ///< of each block
+  std::vector<int> blocks;         ///< [rows] number of blocks
+  std::vector<int> column, terms;  ///< [blocks] column, and number of terms
 };
 
+/// Returns the rows whose terms a function lists.
 /// @param for_terms  (row, use): calls use(column, block, weight) for all terms of a row, in the
-/// same order every time
-/// @param own        whether a row has a block of its own number in any case
+///                   same order every time
+/// @param own        true: each row has a block in the column of its own number, even without terms
 template <class B, class ForTerms>
 RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_t columns, bool own,
                            const ForTerms& for_terms) {
@@ -69,7 +70,7 @@ RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_
   return made;
 }
 
-/// The rows of a symmetric matrix of which the right half is given.
+/// Returns the pattern of a symmetric matrix from its right half.
 template <class B>
 HostPattern both_halves(const RowsOfSums<B>& right) {
   std::vector<std::vector<int>> rows(right.first.size() - 1);
@@ -88,8 +89,8 @@ HostPattern both_halves(const RowsOfSums<B>& right) {
   return {std::move(first), std::move(column)};
 }
 
-/// A P; of row a the columns from the first one on that a hangs on: the right half of P^T A P asks
-/// for no others.
+/// Returns A P, but of row a only the columns from the first nonzero column of row a of P on.
+/// The right half of P^T A P needs no others.
 template <class B>
 RowsOfSums<B> right_product(const HostPattern& A, const RowMatrix& P) {
   const auto for_terms = [&](std::size_t a, const auto& use) {
@@ -105,7 +106,7 @@ RowsOfSums<B> right_product(const HostPattern& A, const RowMatrix& P) {
                          static_cast<std::size_t>(P.cols()), false, for_terms);
 }
 
-/// The right half of P^T (A P).
+/// Returns the right half of P^T (A P).
 template <class B>
 RowsOfSums<B> left_product(const RowMatrix& P, const RowsOfSums<B>& AP) {
   const RowMatrix Pt = P.transpose();

@@ -19,7 +19,8 @@ std::vector<int> numbers(const View& view) {
 
 HostPattern::HostPattern(std::vector<int> first_of_row, std::vector<int> columns)
     : first(std::move(first_of_row)), column(std::move(columns)), place(column.size()) {
-  // [rows above] of the blocks right of the own one, which rows below ask for in turn
+  // [rows so far] next block right of the diagonal; rows below need these blocks one after the
+  // other
   std::vector<int> next;
   for (int a = 0; a < rows(); ++a) {
     const auto begin = column.begin() + first[index_of(a)], end = begin + blocks_of_row(a);

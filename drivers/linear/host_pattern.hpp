@@ -6,15 +6,16 @@
 
 namespace plica {
 
-/// Which blocks a matrix has and where they are stored, on the host: see BlockMatrix.
+/// Pattern of a matrix on the host: its blocks, and where they are stored; see BlockMatrix.
 struct HostPattern {
   std::vector<int> first{0}, column, diagonal, place;
-  int stored = 0;  ///< blocks
+  int stored = 0;  ///< number of stored blocks
 
   HostPattern() = default;
-  /// @param first, column  rows whose columns ascend, their own one always among them
+  /// Makes the pattern of a matrix with these rows.
+  /// @param first, column  rows whose columns ascend; each row has its own column
   HostPattern(std::vector<int> first, std::vector<int> column);
-  /// No blocks.
+  /// Returns a pattern without blocks.
   static HostPattern empty(int rows) {
     HostPattern pattern;
     pattern.first.resize(static_cast<std::size_t>(rows) + 1, 0);
@@ -27,9 +28,10 @@ struct HostPattern {
   }
 };
 
+/// Copies the pattern of a matrix to the host.
 template <class B>
 HostPattern host_pattern(const BlockMatrix<B>& A);
-/// Its values are zero.
+/// Returns a matrix of a pattern, with all values 0.
 template <class B>
 BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern);
 

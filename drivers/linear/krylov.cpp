@@ -110,7 +110,7 @@ KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system,
       scalar[cg::right_side] > 0 ? std::sqrt(scalar[cg::square] / scalar[cg::right_side]) : 0;
   if (scalar[cg::square] > 0)
     out.decades = 0.5 * std::log10(scalar[cg::start] / scalar[cg::square]);
-  // which must show in the state, for whoever checks it
+  // A solve that is not finite must show in the state, so that checks find it.
   if (scalar[cg::stopped] == cg::not_finite) {
     if (out.iterations == 0) copy(exec, x, r);
     out.relative_residual = std::numeric_limits<double>::infinity();

@@ -8,19 +8,20 @@
 
 namespace plica {
 
-/// Where a solve starts: the best combination of the last few solutions; see
-/// kernels/linear/krylov.hpp.
+/// Initial guess of a solve: the best combination of the last few solutions.
+/// See kernels/linear/krylov.hpp.
 template <class B>
 class LastSolutions {
  public:
   using Exec = typename B::Exec;
 
   explicit LastSolutions(int vertices);
-  /// Where there are any: adds the guess to x, which is zero, and takes its part from r.
+  /// Adds the guess to x, which is zero, and subtracts A times the guess from r.
+  /// Does nothing where there are no solutions yet.
   void start(const Exec& exec, const StageSystem<B>& system, const BlockSums<B>& sums,
              const Vectors<B>& r, const Vectors<B>& x) const;
   bool any() const { return count_ > 0; }
-  /// Takes in a solution, for the oldest.
+  /// Stores a solution in place of the oldest one.
   void add(const Exec& exec, const Vectors<B>& x);
   std::size_t bytes() const;
   void persist(StateArchive<B>& archive);
@@ -31,13 +32,13 @@ class LastSolutions {
 };
 
 struct KrylovOutcome : SolveOutcome {
-  double decades = 0;  ///< by which the iterations have lowered the residual
+  double decades = 0;  ///< decimal logarithm of the residual's reduction by the iterations
 };
 
-/// Preconditioned conjugate gradients. The residual is measured by sqrt(r . D r), D the inverse
-/// vertex blocks, whatever the preconditioner; it is D where there is none of its own. The host
-/// looks at the outcome after every iteration where it shares the memory, else after every `watch`:
-/// iterations past the end change nothing.
+/// Preconditioned conjugate gradients.
+/// The residual is measured by sqrt(r . D r) for any preconditioner, D the inverse vertex blocks.
+/// Without a preconditioner it is D that preconditions. The host reads the outcome every `watch`
+/// iterations: after each one where it shares the memory. Iterations past the end change nothing.
 template <class B>
 class Krylov {
  public:
@@ -45,8 +46,9 @@ class Krylov {
   static constexpr int watch = B::on_host ? 1 : 8;
 
   explicit Krylov(int vertices);
-  /// x = A^-1 r from a guess by the last solutions, if any; r becomes the residual.
-  /// options.iterations > 0: exactly so many; else until the relative residual, or max_iterations.
+  /// Solves A x = r, from a guess by the last solutions, if any; r becomes the residual.
+  /// options.iterations > 0: exactly so many iterations; else until the relative residual is
+  /// reached, or max_iterations.
   KrylovOutcome solve(const Exec& exec, const StageSystem<B>& system,
                       const Preconditioner<B>* preconditioner, const LastSolutions<B>* last,
                       const ImplicitOptions& options, const Vectors<B>& r,

@@ -13,48 +13,49 @@
 
 namespace plica {
 
-/// Of the coarsest level of multigrid, which is answered by a dense inverse.
+/// Maximum unknowns of the coarsest level of multigrid, which is solved by a dense inverse.
 inline constexpr int most_dense_unknowns = 1536;
 
-/// What a linear solver is given at set-up, no `auto` left in its options.
+/// Input of a linear solver at set-up; its options have no `auto`.
 struct LinearSolverParts {
   ImplicitOptions options;
-  /// from the body's coarser meshes, finest first; for multigrid only
+  /// transfers from coarser levels, finest first; for multigrid only
   std::vector<RowMatrix> transfers;
-  std::string material;  ///< its name
+  std::string material;  ///< name of the material
 };
 
-/// How a linear solve ended.
+/// Result of a linear solve, without the solution.
 struct SolveOutcome {
   int iterations = 0;
   double relative_residual = 0;
   bool converged = false;
-  bool indefinite = false;  ///< met a direction without positive curvature
+  bool indefinite = false;  ///< true: A has a direction without positive curvature
 };
 
-/// Solves the systems of one level's implicit stages.
+/// Solver of the linear systems of one level's implicit stages.
 template <class B>
 class LinearSolver {
  public:
   using Exec = typename B::Exec;
   virtual ~LinearSolver() = default;
-  /// Takes over the system A of a level at `state`, where its forces have just been linearised; all
-  /// of them stay as they are until the solve. `positive`: with the elements' tangents projected to
-  /// positive semi-definite ones.
+  /// Sets the system A to that of a level at `state`, where its forces have just been linearised.
+  /// Level, state and forces must not change until the solve. `positive`: the tangents of elements
+  /// are projected to positive semi-definite ones.
   virtual void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights&,
                        bool positive) = 0;
-  /// q = A p, where there is a matrix with all of A in it; else false, and nothing is done.
+  /// Sets q = A p where an assembled matrix has all of A; else does nothing and returns false.
   virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const {
     return false;
   }
-  /// x = A^-1 r, zero where motion is given, until |r - A x| is `tolerance` of |r|, where it
-  /// iterates so far. Overwrites r.
+  /// Solves A x = r; x is zero where motion is given. Overwrites r.
+  /// A solver that iterates to a residual ends where |r - A x| is `tolerance` of |r|.
   virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x,
                              double tolerance) = 0;
-  /// Whether a solve ends where what is left is small enough, and not after a fixed amount of work.
+  /// Returns true where a solve ends at a small residual, false where it does a fixed amount of
+  /// work.
   virtual bool converges() const { return true; }
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Device memory of its own.
+  /// Returns the size of the solver's own device memory [bytes].
   virtual std::size_t bytes() const = 0;
   virtual void persist(StateArchive<B>&) {}
 };

@@ -7,7 +7,7 @@
 
 namespace plica {
 
-/// Every solver of linear systems there is. One more: its file above, its name here.
+/// All solvers of linear systems. To add one, include its file above and write its name here.
 using LinearSolvers = TypeList<ConjugateGradients, Direct, VCycleSolver>;
 
 }  // namespace plica

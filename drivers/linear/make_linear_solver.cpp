@@ -14,20 +14,20 @@ namespace plica {
 
 namespace {
 
-// vertices up to which a factorisation is faster: cmake/docs/solvers.md
+// maximum vertices at which a factorisation is faster: cmake/docs/solvers.md
 constexpr std::size_t most_direct = 200;
-constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
-constexpr std::size_t fewest_coarsened = 600;  // vertices
-constexpr std::size_t most_in_coarsest =
-    300;  // vertices; a space below a larger mesh costs less than its dense inverse
+constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix pays
+constexpr std::size_t fewest_coarsened = 600;  // minimum vertices of one mesh for multigrid
+// maximum vertices; a space below a larger mesh costs less than its dense inverse
+constexpr std::size_t most_in_coarsest = 300;
 constexpr double multigrid_reach = 1.3;
-// Critical steps, from which multigrid over spaces pays: of systems that are solved exactly, and of
-// Newton's, which are not. cmake/docs/levels.md
+// Macro step over the critical step from which multigrid over spaces pays: for systems that are
+// solved exactly, and for those of Newton's method, which are not. See cmake/docs/levels.md
 constexpr double long_step = 40, long_newton_step = 100;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
-/// A mesh at rest with its constrained vertices, and Lame's constants of its regions.
+/// Mesh at rest with its constrained vertices, and Lame's constants of its regions.
 struct RestMesh {
   TetMesh mesh;
   std::vector<char> constrained;
@@ -43,7 +43,8 @@ RestMesh rest_mesh(const Body& body, std::size_t level) {
   return made;
 }
 
-/// Over the body's coarser meshes, and over spaces made of the coarsest one where that is large.
+/// Returns the transfers over the body's coarser meshes, and over spaces made of a large coarsest
+/// one.
 std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
   std::vector<RestMesh> meshes;
   for (std::size_t i = level; i < body.levels.size(); ++i) meshes.push_back(rest_mesh(body, i));
@@ -69,8 +70,8 @@ bool has_multigrid(const Body& body, std::size_t level) {
   return coarsest.vertices.size() < fine.vertices.size();
 }
 
-/// With `asked`, what keeps the meshes from being used is the caller's mistake; else there is no
-/// multigrid then.
+/// Adds transfers for multigrid. Where these cannot be made, `asked` decides.
+/// `asked`: the user asked for multigrid, and gets the InputError; else vertex blocks are used.
 void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level, bool asked) {
   try {
     parts.transfers = transfers_below(body, level);
@@ -81,7 +82,8 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
   }
 }
 
-/// Newton's systems are solved to a hundredth, unless they carry pressures or more was asked for.
+/// Returns true where Newton's systems are solved to a residual of a hundredth.
+/// They are not with mixed pressures, nor where the options ask for a smaller residual.
 bool solves_loosely(const Problem& problem, std::size_t level) {
   if (problem.integration.implicit.relative_residual < ImplicitOptions().relative_residual)
     return false;
@@ -105,7 +107,7 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   if (solver == "auto") {
     const bool small = on_host && !fixed && !nodal &&
                        body.levels[level].vertices.size() <= most_direct &&
-                       !has_follower_loads(body);  // whose stiffness is in products alone
+                       !has_follower_loads(body);  // follower loads are in no matrix
     solver = small && o.preconditioner == "auto" && o.matrix != "free" ? Direct::name
                                                                        : ConjugateGradients::name;
   }
@@ -122,7 +124,7 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
         " is nearly incompressible (its nodal elements smooth their pressures), which one V-cycle "
         "of elements "
         "that do not lock cannot answer; expected implicit_euler, solved by conjugate gradients");
-  // the cycle of one level is the coarsest one's answer
+  // the cycle of one level is a direct solve
   if (o.solver == VCycleSolver::name && !multigrid) {
     if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
       throw InputError("level " + std::to_string(level) +
@@ -138,7 +140,7 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
     return parts;
   }
   if (o.preconditioner == "auto" || asked) {
-    // also of a level that has no coarser one, where others have
+    // for a level without a coarser one, too, where other levels have one
     o.preconditioner = BlockJacobi::name;
     const double over =
         critical_step > 0 ? problem.integration.macro_step.value_or(0) / critical_step : 0;

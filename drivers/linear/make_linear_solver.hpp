@@ -5,20 +5,21 @@
 
 namespace plica {
 
-/// What solves the systems of a level, chosen where the options say auto: a direct solver for small
-/// meshes where the host reads the matrix; else conjugate gradients, by multigrid where the body
-/// has coarser meshes, or one mesh and long steps, on an assembled matrix. A fixed number of
-/// iterations means plain ones, preconditioned by blocks.
+/// Chooses the solver of a level's systems and its options, where these are `auto`.
+/// The choice is a direct solver for small meshes where the host can read the matrix. Else it is
+/// conjugate gradients on an assembled matrix, with multigrid where the body has coarser meshes, or
+/// one mesh and long steps. With a fixed number of iterations conjugate gradients are
+/// preconditioned by vertex blocks.
 /// @param solver         a name of the list, or auto
-/// @param critical_step  of the level [s]; 0: not known, and no step is long
+/// @param critical_step  critical step of the level [s]; 0: not known, and no step is long
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host,
                                       std::string solver, double critical_step = 0);
 
-/// "conjugate_gradients, multigrid over 3 levels, assembled"
+/// Returns a description such as "conjugate_gradients, multigrid over 3 levels, assembled".
 std::string describe(const LinearSolverParts& parts);
 
-/// Throws InputError for names that are not in the lists, and a direct solver where the host does
-/// not read device memory.
+/// Makes the linear solver of a level.
+/// Throws InputError for a direct solver where the host cannot read device memory.
 template <class B>
 std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& parts,
                                                     const Level<B>& level);

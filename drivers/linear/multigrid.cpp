@@ -11,14 +11,14 @@ namespace plica {
 namespace {
 
 constexpr int lanczos_steps = 15;
-// By how much the largest eigenvalue may grow until the next fit, where products are with the
-// matrix of each moment
+// factor by which the largest eigenvalue may grow until the next fit, where products use the
+// present system
 constexpr double drift = 1.1;
 
-/// The part of a direction that Chebyshev's next one keeps.
+/// Returns the part of a direction that the next direction of Chebyshev's polynomial keeps.
 float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3); }
 
-/// A^-1 in place, 0 in empty rows. False where A is not positive definite.
+/// Inverts A in place; empty rows get 0. Returns false where A is not positive definite.
 bool invert_on_host(int n, double* A) {
   const auto diagonal = [&](int i) -> double& {
     return A[static_cast<std::ptrdiff_t>(i) * (n + 1)];
@@ -99,7 +99,7 @@ void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A,
   refit(exec);
 }
 
-/// All levels follow from the finest one's matrix and blocks.
+/// Fits all levels, from the finest level's matrix and blocks.
 template <class B>
 void Multigrid<B>::refit(const Exec& exec) {
   fit_smoother(exec, grids_.front());
@@ -113,7 +113,7 @@ void Multigrid<B>::refit(const Exec& exec) {
   }
 }
 
-/// The packed matrix, and the largest eigenvalue of D^-1 A.
+/// Fills the packed matrix, and finds the largest eigenvalue of D^-1 A.
 template <class B>
 void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   const PackedRows<F>& packed = grid.smoother.A;
@@ -129,7 +129,8 @@ void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   fill(exec, grid.smoother.largest, largest_eigenvalue(exec, grid));
 }
 
-/// By a few steps of Lanczos, with what these may fall short by; 1 where nothing is free to move.
+/// Returns the largest eigenvalue of D^-1 A by a few steps of Lanczos, plus their residual.
+/// 1 where nothing is free to move.
 template <class B>
 double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) const {
   const int n = grid.A.rows;
@@ -166,8 +167,10 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   return top.value + top.residual;
 }
 
-/// On the device by the sweep operator; where the host shares its memory by Cholesky's method,
-/// which is many times faster there, if the matrix is positive definite but for empty rows.
+/// Inverts the coarsest level's matrix.
+/// On a device the sweep operator is used. Where the host shares the memory, Cholesky's method is
+/// used, which is many times faster there. It needs a matrix that is positive definite except for
+/// empty rows; else the sweep operator is used there, too.
 template <class B>
 void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   const int n = coarsest_.size;
@@ -185,7 +188,8 @@ void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, -1});
 }
 
-/// What is near A^-1 r, from r alone; r is lost.
+/// Returns an approximation of A^-1 r on a level, in one V-cycle from this level down.
+/// Reads r of the level's smoother, and overwrites it.
 template <class B>
 Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec,
                                                             std::size_t level) const {
@@ -212,8 +216,8 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec,
   return relax(exec, grid, 0, degree_ - 1, Leaves::answer);
 }
 
-/// Steps `first` to `last` of the polynomial from the direction in grid.d; what the last one
-/// leaves.
+/// Takes steps `first` to `last` of the polynomial, from the direction in grid.d.
+/// Returns what the last step leaves, which `leaves` names.
 template <class B>
 Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, const Grid& grid,
                                                             int first, int last,
@@ -229,7 +233,7 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, co
   return d;
 }
 
-/// A d of the finest level.
+/// Sets the product A d of the finest level.
 template <class B>
 void Multigrid<B>::multiply(const Exec& exec, const Fours<F>& d) const {
   const Chebyshev<F>& finest = grids_.front().smoother;

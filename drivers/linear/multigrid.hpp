@@ -13,20 +13,20 @@
 
 namespace plica {
 
-/// z = C r with a symmetric positive definite C near the inverse of a matrix. Vertices whose motion
-/// is given get 0.
+/// Preconditioner z = C r, with a symmetric positive definite C near the inverse of a matrix.
+/// Vertices whose motion is given get 0.
 template <class B>
 class Preconditioner {
  public:
   using Exec = typename B::Exec;
   virtual ~Preconditioner() = default;
-  /// Fits it to a matrix. `inverse_diagonal`: its vertex blocks' inverses, 0 where the motion is
-  /// given.
+  /// Fits the preconditioner to a matrix.
+  /// `inverse_diagonal`: inverses of the matrix's vertex blocks, 0 where the motion is given.
   virtual void fit(const Exec& exec, const BlockMatrix<B>& A,
                    const Blocks<B>& inverse_diagonal) = 0;
   virtual void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const = 0;
   virtual std::size_t bytes() const = 0;
-  /// Names what it has been fitted to; where that has been restored, refit() makes the rest of it.
+  /// Passes to the archive what the preconditioner was fitted to; after a restore call refit().
   virtual void persist(StateArchive<B>& archive) = 0;
   virtual void refit(const Exec& exec) = 0;
 };
@@ -34,33 +34,36 @@ class Preconditioner {
 template <class B>
 struct CoarseMatrix {
   HostPattern pattern;
-  BlockMatrix<B> matrix;  ///< P^T A P, its values zero
+  BlockMatrix<B> matrix;  ///< P^T A P, with all values 0
   GalerkinMap<B> map;
 };
 
-/// Which vertex stands in which slot of packed rows, and the other way round: in windows of slices
-/// the longest rows first, so that little is filled up.
+/// Order of the vertices in the slots of packed rows.
 struct SlotOrder {
-  std::vector<int> vertex;  ///< [slots] -1: none
-  std::vector<int> slot;    ///< [vertices]
+  std::vector<int> vertex;  ///< [slots] vertex of each slot; -1: none
+  std::vector<int> slot;    ///< [vertices] slot of each vertex
 };
+/// Returns an order that within windows of slices puts the longest rows first.
+/// Rows of a slice then have similar lengths, and few entries are filled up.
 SlotOrder slot_order(const HostPattern& A, int height);
-/// Every vertex in the slot of its number.
+/// Returns the order in which every vertex has the slot of its own number.
 SlotOrder plain_order(int vertices);
 
-/// Room for a matrix of that pattern, packed, in the order slot_order(A, height); for float.
+/// Allocates packed rows for a matrix of a pattern, in the order slot_order(A, height); for float.
 template <class B>
 PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order);
-/// The rows and columns of a matrix, by slots.
+/// Returns a matrix with its rows and columns numbered by slots.
 RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& columns);
 
-/// The pattern of P^T A P, own blocks always in it, and how its blocks follow from A's.
+/// Returns the pattern of P^T A P, and the map by which its blocks follow from those of A.
+/// Each row has its own block in any case.
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 
-/// One symmetric V-cycle over the body's meshes, in float: Galerkin matrices P^T A P, Chebyshev
-/// polynomials before and after (kernels/linear/chebyshev.hpp), the dense inverse of the coarsest
-/// level. With no coarser level it is the polynomial alone.
+/// Preconditioner of one symmetric V-cycle over the body's meshes, in float.
+/// It has Galerkin matrices P^T A P, Chebyshev polynomials before and after the coarser level
+/// (kernels/linear/chebyshev.hpp), and the dense inverse of the coarsest level. With no coarser
+/// level it is the polynomial alone.
 ///
 ///   level 0   relax  residual                                        prolongate  relax
 ///                        \\                                           /
@@ -68,23 +71,25 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///                                             \\           /
 ///   level 2                                    restrict  solve
 ///
-/// Where the finest level's matrix is not stored, its polynomial takes that of each moment by
-/// products; coarser levels follow from one that is near it, as it was when the cycle was fitted.
+/// Where the finest level's matrix is not stored, its polynomial uses products with the present
+/// system. Coarser levels are made from a matrix near that of the finest level, at the time of the
+/// fit.
 ///
-/// The polynomial carries the residual along, so that it costs no product of its own. It reads
-/// copies of the matrices in 16 bits a number, and all vectors of a cycle are by the slots of these
-/// (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device; a fit waits once a
-/// level.
+/// The polynomial updates the residual, so that the residual costs no product of its own. The
+/// polynomial reads copies of the matrices in 16 bits a number. All vectors of a cycle are in the
+/// order of the slots of these copies (kernels/linear/packed_rows.hpp). Nothing in a cycle waits
+/// for the device; a fit waits once a level.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
   using Exec = typename B::Exec;
   using F = Backend<float, Exec>;
 
-  /// @param A          its pattern counts
-  /// @param transfers  [i]: level i + 1's vertices to level i's, finest first
-  /// @param degree     of the polynomials, >= 2
-  /// @param finest     of the finest level's matrix, where A is only near it; it outlives the cycle
+  /// @param A          matrix whose pattern is used
+  /// @param transfers  [i]: from level i + 1's vertices to level i's, finest first
+  /// @param degree     degree of the polynomials, >= 2
+  /// @param finest     products with the finest level's matrix, where A is only near it; must
+  ///                   outlive the cycle; null: products with A
   Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree,
             const CycleProduct<B>* finest = nullptr);
 
@@ -98,20 +103,21 @@ class Multigrid final : public Preconditioner<B> {
   struct Grid {
     BlockMatrix<F> A;
     Blocks<F> inverse_diagonal;
-    Chebyshev<F> smoother;   ///< none on the coarsest, and none of these three
-    Fours<F> d, e;           ///< what rows gather, in turns
+    Chebyshev<F> smoother;   ///< empty on the coarsest level, as are d, e, up and down
+    Fours<F> d, e;           ///< directions that rows gather, alternately read and written
     SparseRows<F> up, down;  ///< P from the next coarser level, and its transpose, by slots
-    GalerkinMap<F> map;      ///< from the next finer level's matrix; none on the finest
+    GalerkinMap<F> map;      ///< map from the next finer level's matrix; empty on the finest
   };
   std::vector<Grid> grids_;
   int degree_;
-  const CycleProduct<B>* finest_;  ///< none: by the matrix that is stored
-  Vectors<F> p_;                   ///< of its products
-  double largest_ = 0;             ///< eigenvalue of D^-1 A on the finest level, since the fit
+  const CycleProduct<B>* finest_;  ///< null: products with the matrix that is stored
+  Vectors<F> p_;                   ///< argument of finest_'s products
+  /// bound of the eigenvalues of D^-1 A on the finest level until the next fit; only with finest_
+  double largest_ = 0;
   DenseInverse<F> coarsest_;
   Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
-  Vectors<F> lanczos_[4];  ///< of the finest level's size
+  Vectors<F> lanczos_[4];  ///< [vertices of the finest level][3] work space
   BlockSums<F> sums_;
   Doubles<B> scalars_;
 

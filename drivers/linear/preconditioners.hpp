@@ -13,7 +13,7 @@ struct BlockJacobi {
   static constexpr const char* summary = "the vertices' own 3x3 blocks; nothing to fit";
   template <class B>
   static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts&, StageSystem<B>&) {
-    return nullptr;  // which conjugate gradients have anyway
+    return nullptr;  // conjugate gradients use the vertex blocks anyway
   }
 };
 
@@ -47,7 +47,7 @@ struct MultigridCycle {
   }
 };
 
-/// Every preconditioner there is. One more: a struct like those, its name here.
+/// All preconditioners. To add one, write a struct with the same members and its name here.
 using Preconditioners = TypeList<BlockJacobi, ChebyshevPolynomial, MultigridCycle>;
 
 template <class B>

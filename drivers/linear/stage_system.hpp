@@ -9,9 +9,9 @@
 
 namespace plica {
 
-/// The system A of an implicit stage on one level: its product without a matrix or by an assembled
-/// one, and its vertex blocks. With nodal elements the product is without a matrix; the matrix,
-/// from which coarser levels of a preconditioner follow, is that of linear ones.
+/// System A of an implicit stage on one level: its product and its vertex blocks.
+/// The product uses an assembled matrix, or none. With nodal elements it uses none; the matrix,
+/// from which coarser levels of a preconditioner are made, is then that of linear elements.
 template <class B>
 class StageSystem {
  public:
@@ -19,39 +19,42 @@ class StageSystem {
 
   StageSystem(const Level<B>& level, bool assembled);
 
-  /// A of a level at `state`, where its forces have just been linearised; they stay as they are
-  /// until the next. Projected elements are assembled, also where the rest is not.
+  /// Sets A to the system of a level at `state`, where its forces have just been linearised.
+  /// State and forces must not change until the next call. `positive`: with projected tangents, for
+  /// which linear elements are always assembled.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
                bool positive);
-  /// The same system again, with the elements' tangents projected.
+  /// Sets A to the system of the last prepare() with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
-  /// q = A p
+  /// Sets q = A p.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
-  /// The same, p.q, and the step that follows from it.
+  /// Sets q = A p, sums p.q into `curvature`, and runs `then`, the step that follows from it.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
                const Doubles<B>& curvature, const CgStep<B>& then) const;
-  /// q = A w of a whole space
+  /// Sets q = A w for all vectors of a space.
   void products(const Exec& exec, const SolutionSpace<B>& space) const;
-  /// The inverses of its vertex blocks; 0 where the motion is given.
+  /// Returns the inverses of the vertex blocks of A; 0 where the motion is given.
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
-  /// A itself, assembled if it is not.
+  /// Returns the matrix of A, which is assembled if it is not yet.
   const BlockMatrix<B>& matrix(const Exec& exec);
-  /// Fits a preconditioner to that matrix.
+  /// Fits a preconditioner to matrix().
   void fit(const Exec& exec, Preconditioner<B>& preconditioner);
-  /// For a preconditioner of nodal elements whose model has rows in float; else none.
+  /// Returns products in float for a preconditioner of nodal elements.
+  /// Null where the model has no rows in float.
   const CycleProduct<B>* cycle_product(std::string_view material);
-  /// Its pattern alone; with nodal elements that of linear ones.
+  /// Returns the matrix of A, of which only the pattern is valid; with nodal elements that of
+  /// linear ones.
   const BlockMatrix<B>& pattern();
-  /// Whether a product is by the matrix and nothing else.
+  /// Returns true where a product needs the matrix and nothing else.
   bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
   int rows() const { return level_->model.vertices; }
   std::size_t bytes() const;
 
  private:
-  bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
+  bool nodal_, assembled_, ready_ = false;  ///< ready_: the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
-  /// inverses; the latter of nodal elements without cycle_product_
+  /// inverses of vertex blocks: of A; of the matrix, for nodal elements without cycle_product_
   Blocks<B> inverse_diagonal_, blocks_of_matrix_;
   std::unique_ptr<CycleProduct<B>> cycle_product_;
   const Level<B>* level_ = nullptr;

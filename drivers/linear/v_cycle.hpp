@@ -7,12 +7,12 @@
 
 namespace plica {
 
-/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is
-/// fitted: when the stage's weights change, in every step in which contact may begin, and when the
-/// residual after the cycle is `worn` times that of its first solve; then the system is solved
-/// again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this
-/// A. That needs a positive definite A: where the tangent is left to choose, the cycle is fitted to
-/// that of the projected elements.
+/// Solver of each system by one V-cycle, x = C r.
+/// A matrix is assembled only where the cycle is fitted. That is when the stage's weights change,
+/// and in every step in which contact may begin. It is also when the residual after the cycle is
+/// `worn` times that of its first solve; then the system is solved again. In exact arithmetic C A
+/// has its eigenvalues in (0, 1], as long as C is the cycle of this A. That needs a positive
+/// definite A. So with `tangent: auto` the cycle is fitted to projected elements.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
   static constexpr const char* summary = "one V-cycle of multigrid per system, at any residual";
@@ -80,7 +80,7 @@ struct VCycleSolver {
     BlockSums<B> sums_;
     long fitted_ = 0, fits_ = 0;
     double a_ = 0, b_ = 0;  ///< weights that the cycle is fitted to
-    double first_ = 0;      ///< relative residual of its first solve; 0: none yet
+    double first_ = 0;      ///< relative residual of the first solve after a fit; 0: none yet
     bool restored_ = false;
 
     void fit(const Exec& exec) {
@@ -89,7 +89,7 @@ struct VCycleSolver {
       fitted_ = 1, first_ = 0, ++fits_;
     }
 
-    /// x = C r; the relative residual of A x = r.
+    /// Sets x = C r and returns the relative residual of A x = r.
     double cycle(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) const {
       const auto square = [&](const Vectors<B>& of, int slot) {
         reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(),

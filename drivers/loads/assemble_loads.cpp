@@ -18,7 +18,7 @@ Point area_vector(const TetMesh& mesh, const std::array<int, 3>& t) {
   return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
 }
 
-/// At rest, per vertex [N].
+/// Returns the forces of a pressure on the mesh at rest, per vertex [N].
 std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const Selection& where,
                                const Selecting& who) {
   std::map<int, Point> force;
@@ -33,7 +33,8 @@ bool follows(const LoadOptions& load) {
          std::holds_alternative<EnclosedVolume>(load.load);
 }
 
-/// Per vertex its share: of a traction the area [m^2], of a force the mass over the mass of all.
+/// Returns each vertex's share of a load. For a traction it is an area [m^2], for a force the
+/// vertex's mass over the mass of all.
 std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh,
                              const std::vector<double>& mass, const Selecting& who) {
   std::map<int, double> share;
@@ -112,7 +113,7 @@ namespace {
 template <class B>
 FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
                               const Point& origin) {
-  // of each vertex the two others of its triangles
+  // per vertex, the two other vertices of each of its triangles
   std::map<int, std::vector<std::array<int, 2>>> at;
   for (const auto& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) at[t[c]].push_back({t[(c + 1) % 3], t[(c + 2) % 3]});
@@ -135,7 +136,7 @@ FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<
           {}};
 }
 
-/// Per vertex whether it never moves.
+/// Returns for each vertex whether it never moves.
 std::vector<char> still_vertices(const LevelConstants& constants) {
   std::vector<char> still = constants.constrained;
   for (const int v : constants.prescribed_vertex) still[static_cast<std::size_t>(v)] = 0;

@@ -7,29 +7,32 @@
 
 namespace plica {
 
-/// What a load is on one level, at factor 1, at rest.
+/// Forces of one load on one level, at factor 1, at rest.
 struct AssembledLoad {
   std::vector<int> vertex;
   std::vector<Point> force;         ///< [N]
-  Point resultant = Point::Zero();  ///< their sum [N]
+  Point resultant = Point::Zero();  ///< sum of the forces [N]
 };
 
-/// Whether pressures follow the body, given or of fluids in it.
+/// Returns whether pressures follow the body: given ones, or those of fluids in it.
 bool has_follower_loads(const Body& body);
 
-/// All loads on a level's mesh at rest. A traction is integrated over the level's own boundary and
-/// scaled to the resultant it has on level 0, `finest`, which is empty there: loads do not depend
-/// on the resolution. InputError where a load finds nothing to act on, or nothing that is free to
+/// Returns all loads on a level's mesh at rest. A traction is integrated over the level's own
+/// boundary and scaled to the resultant it has on level 0. So loads do not depend on the
+/// resolution. Throws InputError where a load finds nothing to act on, or nothing that is free to
 /// move.
+/// @param finest  loads on level 0; empty for level 0 itself
 std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
                                           const LevelConstants& constants, int level,
                                           const std::vector<AssembledLoad>& finest);
 
-/// The dead ones among them.
+/// Copies the dead ones of a body's assembled loads to the device. Dead loads do not follow the
+/// body.
 template <class B>
 std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledLoad>& loads);
 
-/// The pressures that follow the body, given or of fluids in it, on a level's mesh at rest.
+/// Builds the pressures that follow the body on a level's mesh at rest: given ones, and those of
+/// fluids in it.
 template <class B>
 std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh,
                                             const LevelConstants& constants, int level);

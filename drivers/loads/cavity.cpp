@@ -19,7 +19,8 @@ double cone(const Point& a, const Point& b, const Point& c) { return a.dot(b.cro
 
 using Edge = std::pair<int, int>;
 
-/// Edges that one triangle has alone, as the triangles that are missing there would run.
+/// Returns the edges that only one triangle has, in the direction of the triangles that are missing
+/// there.
 std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
   std::set<Edge> edges;
   for (const Triangle& t : triangles)
@@ -30,7 +31,7 @@ std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
   return alone;
 }
 
-/// From vertex to vertex along the rims.
+/// Returns for each vertex on a rim the next one along the rim.
 std::map<int, int> rims(const std::vector<Triangle>& triangles, const std::string& option) {
   std::map<int, int> next;
   for (const auto& [a, b] : rim_edges(triangles))

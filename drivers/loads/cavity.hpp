@@ -8,24 +8,26 @@
 
 namespace plica {
 
-/// Whether no vertex on a rim of these triangles moves: they enclose a volume then, up to a
-/// constant.
+/// Returns whether no vertex on a rim of these triangles moves. If so, they enclose a volume, up to
+/// a constant.
 bool has_still_rims(const std::vector<std::array<int, 3>>& triangles,
                     const std::vector<char>& still);
 
-/// The mean of their corners at rest [m].
+/// Returns the mean of the triangles' corners at rest [m].
 Point centre_of(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles);
 
-/// What triangles of a mesh at rest enclose on their outer side. A rim is closed by a fan about its
-/// middle, so it must not move: `still` says which vertices do not. `load` is its number.
-/// InputError where others are on it, or where no volume is enclosed.
+/// Makes the cavity that triangles of a mesh at rest enclose on their outer side. A rim is closed
+/// by a fan about its middle, so it must not move. Throws InputError where a vertex on a rim may
+/// move, or where no volume is enclosed.
+/// @param load   number of the load
+/// @param still  for each vertex whether it never moves
 Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
                    const std::vector<std::array<int, 3>>& triangles, const std::vector<char>& still,
                    const Selecting& who);
 
-/// An upper bound of what the fluids in a level's cavities add to its squared frequencies [1/s^2]:
-/// the stiffness of one is K a a^T / V with a = dV/dx, which is as large as areas: those at rest,
-/// grown to `ratio` alike in all directions where that is above 1.
+/// Returns an upper bound of what the fluids in a level's cavities add to its squared frequencies
+/// [1/s^2]. The stiffness of one fluid is K a a^T / V with a = dV/dx. a is as large as areas: those
+/// at rest, grown to `ratio` alike in all directions where that is above 1.
 template <class B>
 double cavity_eigenvalue(const Level<B>& level);
 

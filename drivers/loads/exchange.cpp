@@ -6,7 +6,8 @@ namespace plica {
 
 namespace {
 
-/// Launches kernel(view) over the rows of a caller's array, which must be `count`.
+/// Launches kernel(view) over the rows of a caller's array. Throws InputError unless it has `count`
+/// rows.
 template <class B, class Array, class Kernel>
 void over_rows(const typename B::Exec& exec, const char* label, const Array& array,
                std::size_t count, const Kernel& kernel) {

@@ -4,9 +4,9 @@
 #include <plica/core/problem.hpp>
 #include <plica/core/type_list.hpp>
 
-// The integrators by name: what a scene's integration.integrator chooses from, each with its order
-// in time and its limit. Light, without any kernel: each makes itself in a source of its own, where
-// its formulas are.
+// The integrators by name, from which a scene's integration.integrator chooses, each with its order
+// in time and its limit. This header has no kernels: each integrator's make() is in a source of its
+// own, with its formulas.
 namespace plica {
 
 template <class B>
@@ -16,16 +16,16 @@ class Integrator;
 template <class B>
 struct IntegratorParts;
 
-/// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with
-/// lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2 + 2 h c
-/// <= 4, that is exact; for a Runge-Kutta method it keeps all h s within `radius`. One that grows
-/// at every step undamped, |R|^2 = 1 + growth (h w)^power - h c, is stable where damping outweighs
-/// that. Implicit: none of this.
+/// Stability limit of an integrator on u'' = -K u - D u', with K and D per mass. It is the largest
+/// h with lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2
+/// + 2 h c <= 4, that is exact. For a Runge-Kutta method it keeps h s within `radius` for all modes
+/// e^(s t). A method that grows at every step undamped has |R|^2 = 1 + growth (h w)^power - h c; it
+/// is stable where damping outweighs the growth. Implicit integrators have no such limit.
 struct StabilityLimit {
-  double radius = 0;  ///< 0: none of this kind
-  double growth = 0;  ///< 0: it does not grow at every step
-  int power = 0;      ///< of h w, above 1
-  /// the largest h c, where mass damping c is explicit; 0: it is implicit and never a limit
+  double radius = 0;  ///< radius of the limit; 0: no limit of this kind
+  double growth = 0;  ///< factor of the growth at every step; 0: it does not grow
+  int power = 0;      ///< exponent of h w in the growth, above 1
+  /// the largest h c, where mass damping c is explicit; 0: damping is implicit and never a limit
   double damping = 0;
 };
 
@@ -49,8 +49,8 @@ struct CentralDifference {
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
-/// |1 + h s|^2 = 1 - h c + h^2 w^2: undamped a mode grows at every step, one with mass damping c is stable for h < c / w^2 and
-/// h < 2 / c.
+/// Forward Euler, with |1 + h s|^2 = 1 - h c + h^2 w^2 for a mode e^(s t). Undamped, a mode grows
+/// at every step. One with mass damping c is stable for h < c / w^2 and h < 2 / c.
 struct ForwardEuler {
   static constexpr const char* name = "euler";
   static constexpr const char* summary = "explicit, order 1; undamped it grows at every step";
@@ -61,8 +61,8 @@ struct ForwardEuler {
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
-/// |R|^2 = 1 + (h w)^4/4 - h c: an undamped mode grows at every step, one with mass damping c is stable for h^3 < 4 c/w^4 and
-/// h c < 2.
+/// Runge-Kutta method of order 2, with |R|^2 = 1 + (h w)^4/4 - h c. Undamped, a mode grows at every
+/// step. One with mass damping c is stable for h^3 < 4 c/w^4 and h c < 2.
 struct Rk2 {
   static constexpr const char* name = "rk2";
   static constexpr const char* summary =
@@ -74,9 +74,9 @@ struct Rk2 {
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
-/// Stable for h < 2.83/w undamped; motion near that limit decays. The radius 2.78 is that of the
-/// largest half disc in its stability region, so that it holds with any damping (Hairer & Wanner
-/// II, IV.2).
+/// Runge-Kutta method of order 4, stable for h < 2.83/w undamped; motion near that limit decays.
+/// The radius 2.78 is that of the largest half disc in its stability region, so that it holds with
+/// any damping (Hairer & Wanner II, IV.2).
 struct Rk4 {
   static constexpr const char* name = "rk4";
   static constexpr const char* summary = "explicit, order 4, four forces a step; h < 2.78/w";
@@ -104,7 +104,7 @@ struct Newmark {
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
-  /// energy, on the linear problem
+  /// Returns true: it conserves energy on the linear problem.
   static constexpr bool conserves(const ImplicitOptions&) { return true; }
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
@@ -139,6 +139,7 @@ struct GeneralizedAlpha {
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
+  /// Returns whether it conserves energy on the linear problem, where it damps no motion.
   static constexpr bool conserves(const ImplicitOptions& options) {
     return options.rho_infinity == 1.0;
   }
@@ -153,13 +154,13 @@ struct VCycleEuler {
   static constexpr int order = 1;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{0.0};
-  /// whatever integration.implicit.solver says
+  /// linear solver, whatever integration.implicit.solver says
   static constexpr const char* linear_solver = "v_cycle";
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
-/// Every integrator there is. One more: its entry above, its name here, and its source.
+/// All integrators. A new one needs an entry above, its name here, and its source.
 using Integrators = TypeList<SymplecticEuler, CentralDifference, ForwardEuler, Rk2, Rk4,
                              ImplicitEuler, Newmark, Bdf2, Sdirk2, GeneralizedAlpha, VCycleEuler>;
 

@@ -4,24 +4,24 @@
 #include <plica/core/type_list.hpp>
 #include <string_view>
 
-// The steppers by name: what a scene's integration.cycle chooses from. Light, without any kernel:
-// each makes itself in a source of its own.
+// The steppers by name, from which a scene's integration.cycle chooses. This header has no kernels:
+// each stepper's make() is in a source of its own.
 namespace plica {
 
 template <class B>
 class Stepper;
 
-/// What a stepper needs from set-up.
+/// Needs of a stepper at set-up.
 struct StepperNeeds {
-  bool coarse_meshes = false;  ///< it uses more than the finest mesh
+  bool coarse_meshes = false;  ///< whether it uses more meshes than the finest
   bool coarse_states = false;  ///< coarser levels have states of their own and are integrated
-  /// per vertex, for mappings that switch between state and variation
+  /// limits of drift per vertex are needed, for mappings that switch between state and variation
   bool drift_limits = false;
   bool inherited_masses = false;  ///< coarse masses are restricted from the finer ones
-  bool extrapolation = false;     ///< its embeddings extrapolate, for any integration.outside
+  bool extrapolation = false;     ///< embeddings extrapolate, for any integration.outside
 };
 
-/// Level 0 alone.
+/// The finest level alone, without the others.
 struct Single {
   static constexpr const char* name = "single";
   static constexpr const char* summary = "the finest level alone";
@@ -81,11 +81,11 @@ struct Him {
   static std::unique_ptr<Stepper<B>> make();
 };
 
-/// Every stepper there is. One more: its entry above, its name here, and its source.
+/// All steppers. A new one needs an entry above, its name here, and its source.
 using Steppers = TypeList<Single, Rs, Rv, Rsv, RsvSv, Fas, Him>;
 
-// How far cycle auto, which is him or single, may be from the finest level alone: parts of its
-// displacements.
+// Classes of error for cycle auto, which is him or single: how far its displacements may be from
+// those of the finest level alone, as a part of these.
 struct InteractiveClass {
   static constexpr const char* name = "interactive";
   static constexpr const char* summary = "5 % of displacement";
@@ -102,10 +102,11 @@ struct AccurateClass {
   static constexpr double error = 0.001;
 };
 
-/// Every class of error there is.
+/// All classes of error.
 using ErrorClasses = TypeList<InteractiveClass, BalancedClass, AccurateClass>;
 
-/// The needs of the stepper of that name; of level 0 alone for a name that is not in the list.
+/// Returns the needs of the stepper of that name. For a name that is not in the list, they are
+/// those of level 0 alone.
 inline StepperNeeds stepper_needs(std::string_view name) {
   StepperNeeds needs;
   Steppers::visit(name, [&](auto stepper) { needs = decltype(stepper)::needs; });

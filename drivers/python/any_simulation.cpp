@@ -162,7 +162,7 @@ class SimulationOf final : public AnySimulation {
       auto bad = simulation_.step_checked();
       if (bad) bad = app::in_input_numbers(*bad, *scene_);
       return bad;
-    } catch (...) {  // a caller's force, or Ctrl-C: the step is half done
+    } catch (...) {  // thrown by a caller's force or by Ctrl-C within the step
       simulation_.return_to_last_good();
       throw;
     }
@@ -192,7 +192,7 @@ class SimulationOf final : public AnySimulation {
       std::copy_n(&here[3 * static_cast<std::size_t>(order[i])], 3, &to[3 * i]);
   }
 
-  /// In the simulation's own order
+  /// Reads a field in the order of the simulation
   void read_rows(Field field, int level, Values& to) const {
     if (to.empty()) return;
     const HostRows host(to.data(), to.size() / 3);
@@ -204,10 +204,10 @@ class SimulationOf final : public AnySimulation {
     if (field == Field::surface_positions) simulation_.read_surface_positions(output);
     if (field == Field::surface_velocities) simulation_.read_surface_velocities(output);
     Kokkos::fence("plica::read");
-    Kokkos::deep_copy(host, rows);  // nothing where they are the same
+    Kokkos::deep_copy(host, rows);  // copies nothing if both are one view
   }
 
-  /// From the order of the input
+  /// Copies values in input order to the device, in the order of the simulation
   Rows on_device(const Values& values, const std::vector<int>& order) const {
     const Rows rows("plica::rows", values.size() / 3);
     const auto host = Kokkos::create_mirror_view(rows);
@@ -244,7 +244,7 @@ class SimulationOf final : public AnySimulation {
   Simulation<B> simulation_;
   std::size_t surface_points_;
   ExternalForces<B> forces_;
-  double wall_time_ = 0;  // of steps [s]
+  double wall_time_ = 0;  // wall time of the steps [s]
   std::optional<app::RunFiles> files_;
   std::filesystem::path folder_;
 };

@@ -10,72 +10,80 @@
 #include <string>
 #include <vector>
 
-/// A scene in motion as Python sees it: in either precision behind one type, arrays on the host in
-/// double, rows in the order of the meshes' files.
+/// Simulation as Python sees it, with one type for both precisions. Arrays are on the host in
+/// double, with rows in the order of the mesh files.
 namespace plica::python {
 
-/// Numbers row after row.
+/// Table of numbers, row after row.
 using Values = std::vector<double>;
 
-/// What can be looked at while it changes, [rows][3].
+/// Fields that follow the simulation as live arrays, [rows][3].
 enum class Field { positions, velocities, surface_positions, surface_velocities };
 
-/// Adds to `forces` [N]; all three are [vertices][3].
+/// Function that adds to `forces` [N], from positions [m] and velocities [m/s] at a time [s]. All
+/// three arrays are [vertices][3].
 using HostForces = std::function<void(int level, double time, const Values& positions,
                                       const Values& velocities, Values& forces)>;
 
+/// Interface of a simulation in either precision.
 class AnySimulation {
  public:
   virtual ~AnySimulation() = default;
 
-  /// Checked macro steps until this time, at most so many. Calls between() after each. A diagnosis:
-  /// the state is the last good one. Where something throws within a step, too.
+  /// Takes checked macro steps until this time [s], at most `at_most`. Calls between() after each
+  /// step. Returns a diagnosis if a step failed. After a diagnosis, or an exception within a step,
+  /// the state is the last good one.
   virtual std::optional<Diagnosis> advance(double until, long at_most,
                                            const std::function<void()>& between) = 0;
-  /// See Simulation::end_at().
+  /// Shortens the macro step that would go beyond this time [s], see Simulation::end_at().
   virtual void end_at(double time) = 0;
 
-  /// The values of a field, which follow the simulation as long as somebody holds them.
+  /// Returns the values of a field. They follow the simulation as long as a caller keeps them.
   std::shared_ptr<Values> live(Field field, int level);
+  /// Returns stress and volume ratio of a level's elements, in input order.
   virtual ElementFields element_fields(int level) const = 0;
-  virtual std::vector<Wrench> wrenches() const = 0;
-  virtual std::vector<double> contact_depths() const = 0;
-  virtual std::vector<ToolState> tools() const = 0;
-  virtual std::vector<HeldBy> held() const = 0;
-  /// See Simulation::grasp() and release().
-  virtual void grasp(int obstacle) = 0;
-  virtual void release(int obstacle) = 0;
-  virtual std::vector<CavityState> cavities() const = 0;
-  /// See Simulation::move_obstacle().
+  virtual std::vector<Wrench> wrenches() const = 0;        ///< see Simulation::wrenches()
+  virtual std::vector<double> contact_depths() const = 0;  ///< see Simulation::contact_depths()
+  virtual std::vector<ToolState> tools() const = 0;        ///< see Simulation::tools()
+  virtual std::vector<HeldBy> held() const = 0;            ///< see Simulation::held()
+  virtual void grasp(int obstacle) = 0;                    ///< see Simulation::grasp()
+  virtual void release(int obstacle) = 0;                  ///< see Simulation::release()
+  virtual std::vector<CavityState> cavities() const = 0;   ///< see Simulation::cavities()
+  /// Moves an obstacle to a displacement [m] and a rotation vector [rad], if one is given. See
+  /// Simulation::move_obstacle().
   virtual void move_obstacle(int obstacle, const Point& displacement,
                              const std::optional<Point>& rotation) = 0;
 
-  virtual double time() const = 0;
-  virtual double macro_step() const = 0;
-  virtual long macro_steps() const = 0;
-  virtual Energies energies() const = 0;
-  virtual std::vector<LevelReport> levels() const = 0;
-  virtual std::map<std::string, long> counters() const = 0;
-  virtual std::string precision() const = 0;
+  virtual double time() const = 0;                           ///< simulated time [s]
+  virtual double macro_step() const = 0;                     ///< length of a macro step [s]
+  virtual long macro_steps() const = 0;                      ///< number of macro steps so far
+  virtual Energies energies() const = 0;                     ///< energies of level 0 [J]
+  virtual std::vector<LevelReport> levels() const = 0;       ///< elements numbered as in the files
+  virtual std::map<std::string, long> counters() const = 0;  ///< see Simulation::counters()
+  virtual std::string precision() const = 0;                 ///< float | double
 
+  /// Replaces level 0's positions [m] and velocities [m/s], both [vertices][3].
   virtual void set_state(const Values& positions, const Values& velocities) = 0;
+  /// Sets a function that adds forces on every level; an empty one ends that. Throws InputError if
+  /// the back end is not on the host.
   virtual void set_forces(HostForces forces) = 0;
-  virtual SavedState save() const = 0;
-  virtual void restore(const SavedState& saved) = 0;
+  virtual SavedState save() const = 0;                ///< see Simulation::save()
+  virtual void restore(const SavedState& saved) = 0;  ///< see Simulation::restore()
 
-  /// From now on the files of a run in this folder, as those of `plica run`.
+  /// Starts the files of a run in this folder: frames and history.csv, as `plica run` writes them.
   virtual void start_files(const std::filesystem::path& folder) = 0;
-  /// Writes the state as a frame, and the summary, with what a run is like so far: running,
-  /// completed, diverged.
+  /// Writes the state as a frame, and summary.json with the status of the run: running, completed
+  /// or diverged.
   virtual void write_frame(const std::string& status,
                            const std::optional<Diagnosis>& diagnosis) = 0;
 
-  /// See app::show_live(); the method is filled in.
+  /// Serves a live view of the simulation, see app::show_live(). Sets `options.method`.
   virtual void show_live(app::LiveOptions options) = 0;
 
  protected:
+  /// Copies a field of a level to `to`, in input order.
   virtual void read(Field field, int level, Values& to) const = 0;
-  /// What is held shows the state there is now.
+  /// Updates all live arrays to the present state.
   void refresh();
 
  private:
@@ -87,8 +95,8 @@ class AnySimulation {
   std::vector<Live> lives_;
 };
 
-/// Sets the scene up; precision: float or double. InputError with the place in the scene. Starts
-/// Kokkos.
+/// Starts Kokkos and sets a scene up; precision: float or double. Throws InputError with the
+/// location in the scene.
 std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene,
                                                const std::string& precision);
 

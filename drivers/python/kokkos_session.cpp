@@ -17,7 +17,7 @@ namespace {
 using Exec = Kokkos::DefaultExecutionSpace;
 bool ours = false;
 
-// The files in this process that hold Kokkos
+// Returns the library files in this process that contain Kokkos
 std::set<std::string> copies() {
   std::set<std::string> found;
   dl_iterate_phdr(
@@ -47,8 +47,8 @@ void start_kokkos(int threads) {
   if (const auto files = copies(); files.size() > 1)
     throw InputError(
         fmt::format("two copies of Kokkos are in this process: {}", fmt::join(files, " and ")));
-  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too
-  // late from here.
+  // Prevents Kokkos' warning that OpenMP's threads are not bound. Binding is the user's choice, and
+  // here it is too late for it.
   setenv("OMP_PROC_BIND", "false", 0);
   Kokkos::InitializationSettings settings;
   if (threads > 0) settings.set_num_threads(threads);
@@ -74,7 +74,8 @@ namespace Tools = Kokkos::Tools::Experimental;
 thread_local std::function<void()> call_between;
 Tools::EventSet tools_before;
 
-// Kokkos' own kernels, such as those that make a view, may not throw
+// Calls the function before kernels "plica::..." only: Kokkos' own kernels, such as those that make
+// a view, may not throw
 void before_kernel(const char* name, const std::uint32_t, std::uint64_t* number) {
   *number = 0;
   if (call_between && std::string_view(name).starts_with("plica::")) call_between();
@@ -85,7 +86,7 @@ void before_kernel(const char* name, const std::uint32_t, std::uint64_t* number)
 BetweenKernels::BetweenKernels(std::function<void()> call) {
   call_between = std::move(call);
   tools_before = Tools::get_callbacks();
-  if (tools_before.begin_parallel_for != nullptr) return;  // the user's profiling tool
+  if (tools_before.begin_parallel_for != nullptr) return;  // keeps the user's profiling tool
   Tools::set_begin_parallel_for_callback(before_kernel);
   Tools::set_begin_parallel_reduce_callback(before_kernel);
 }

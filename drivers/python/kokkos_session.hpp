@@ -3,28 +3,29 @@
 #include <functional>
 #include <string>
 
-/// The one Kokkos of a Python process: started when first needed, finalised when the interpreter
-/// ends.
+/// Kokkos in a Python process: there is one, started when it is first needed and finalised when the
+/// interpreter ends.
 namespace plica::python {
 
-/// Starts Kokkos; threads 0: as many as there are. Does nothing where it runs. InputError where it
-/// runs with another number of threads, has come to its end, or another copy of its library is in
-/// the process.
+/// Starts Kokkos, unless it runs already; threads 0: all that there are. Throws InputError if
+/// Kokkos runs with another number of threads or was finalised, or if the process has two copies of
+/// its library.
 void start_kokkos(int threads = 0);
 
-/// Ends it, if start_kokkos() has started it.
+/// Finalises Kokkos, if start_kokkos() has started it.
 void finalize_kokkos();
 
-/// What runs: "OpenMP", threads. Starts Kokkos.
+/// Version of Kokkos, back end such as "OpenMP", and number of threads.
 struct KokkosInfo {
   std::string version, backend;
   int threads = 0;
 };
+/// Starts Kokkos and returns its version, back end and number of threads.
 KokkosInfo kokkos_info();
 
-/// While this lives, calls a function before each kernel of the library that this thread launches.
-/// What it throws comes out of the launch, so that a long macro step or set-up can be left. One at
-/// a time.
+/// Calls a function before each kernel of the library that this thread launches, while the object
+/// exists. An exception of the function leaves the launch: so a long macro step or set-up can be
+/// interrupted. At most one object may exist at a time.
 class BetweenKernels {
  public:
   explicit BetweenKernels(std::function<void()> call);

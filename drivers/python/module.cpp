@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module plica._plica: what C++ has, as it is. The package plica around it, in Python, is what
-// users see.
+// Module plica._plica: a thin binding of the C++ library. Users see the Python package plica, which
+// wraps it.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -40,7 +40,7 @@ template <class T>
 using Table = nb::ndarray<const T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using ScenePtr = std::shared_ptr<app::Scene>;
 
-/// Memory of ours as an array of numpy that keeps it alive.
+/// Returns values as a numpy array without a copy; the array keeps the memory alive.
 template <class T>
 nb::object array(std::shared_ptr<std::vector<T>> values, std::size_t columns = 0) {
   T* data = values->data();
@@ -75,7 +75,8 @@ std::vector<Point> points_of(const Table<double>& table) {
   return points;
 }
 
-/// Looks for Ctrl-C twenty times a second, while the caller does not hold the GIL.
+/// Checks for Ctrl-C at most twenty times a second, while the caller does not hold the GIL. Throws
+/// the Python exception.
 class Signals {
  public:
   void operator()() {
@@ -89,7 +90,7 @@ class Signals {
   Clock::time_point last_ = Clock::now();
 };
 
-// A mesh with its regions and groups: points, tets, region of each, names of these, vertex sets
+// Returns a mesh as a tuple: points, tets, region of each tet, names of the regions, vertex sets
 nb::tuple parts_of(const TetMesh& mesh) {
   nb::dict sets;
   for (const auto& [name, vertices] : mesh.vertex_sets) sets[name.c_str()] = array(vertices);
@@ -115,7 +116,7 @@ ScenePtr load(const std::string& file, const std::string& json, const std::strin
   return std::make_shared<app::Scene>(app::load_scene(tree));
 }
 
-// study.csv
+// Runs a study and returns its study.csv
 std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
   start_kokkos();
   StudyOptions options = scene->study;
@@ -191,13 +192,13 @@ void bind_scene(nb::module_& m) {
   m.def("study", &study_of, "scene"_a, "budget"_a.none());
 }
 
-/// A simulation that can be closed while Python still refers to it: in a traceback, say, when the
+/// Simulation that can be closed while Python still refers to it, such as in a traceback when the
 /// interpreter ends.
 class Handle {
  public:
   explicit Handle(std::shared_ptr<AnySimulation> simulation) : simulation_(std::move(simulation)) {}
   void close() { simulation_.reset(); }
-  /// Whoever holds it can go on.
+  /// Returns the simulation; it stays alive while the caller uses it. Throws if it is closed.
   std::shared_ptr<AnySimulation> operator->() const {
     if (!simulation_) throw std::runtime_error("this simulation is closed");
     return simulation_;
@@ -214,7 +215,7 @@ nb::object live(const Handle& simulation, Field field, int level) {
 void set_forces(const Handle& simulation, const nb::object& callback) {
   if (callback.is_none()) return simulation->set_forces({});
   const auto held = std::shared_ptr<nb::object>(new nb::object(callback), [](nb::object* object) {
-    const nb::gil_scoped_acquire gil;  // of whichever thread drops it
+    const nb::gil_scoped_acquire gil;  // the thread that drops the callback may lack the GIL
     delete object;
   });
   simulation->set_forces(
@@ -232,7 +233,7 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
       });
 }
 
-/// Until Ctrl-C, which raises KeyboardInterrupt. listening(address) is called once.
+/// Serves a live view until Ctrl-C, which raises KeyboardInterrupt. Calls listening(address) once.
 void show_live(const Handle& simulation, const app::Port& port, const nb::object& listening) {
   Signals signals;
   const nb::gil_scoped_release release;

@@ -45,12 +45,12 @@ DampingLimit damping_limit(const LevelConstants& c) {
   if (c.stiffness_damping.empty()) return {*mass.first, *mass.second};
   const auto stiffness =
       std::minmax_element(c.stiffness_damping.begin(), c.stiffness_damping.end());
-  // what stabilises nodal ones is undamped
+  // the stabilisation of nodal elements is not damped
   const double least = c.element == Element::linear ? *stiffness.first : 0;
   return {*mass.first, *mass.second, least, *stiffness.second};
 }
 
-/// The set-up in progress: host data that several of its steps need.
+/// Set-up in progress, with host data that several of its steps need.
 template <class B>
 class HierarchyBuilder {
   using Exec = typename B::Exec;
@@ -88,7 +88,8 @@ class HierarchyBuilder {
   }
 
  private:
-  /// A region of Kokkos' profiling interface: tools and programs see what the set-up is at.
+  /// Runs a phase of the set-up in a region of Kokkos' profiling interface, so that tools and
+  /// programs see it.
   template <class Work>
   static void phase(const std::string& name, const Work& work) {
     const Kokkos::Profiling::ScopedRegion region("plica: " + name);
@@ -98,17 +99,17 @@ class HierarchyBuilder {
   const Problem& problem_;
   BuiltHierarchy<B> built_;
   StepperNeeds needs_;
-  std::size_t meshes_, levels_;  // that are used; that are integrated
-  TriangleSurface surface_;      // placed
+  std::size_t meshes_, levels_;  // number of meshes that are used; of levels that are integrated
+  TriangleSurface surface_;      // the placed surface
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;        // per level
-  std::vector<std::vector<FollowerLoad<B>>> followers_;  // likewise
+  std::vector<std::vector<FollowerLoad<B>>> followers_;  // per level
   std::vector<std::unique_ptr<BodyLocator>> locators_;
-  // [i]: level i's vertices in level i-1, and the other way; [0] empty
+  // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
-  std::vector<int> massless_ = {0};  // [i]: level i's vertices that inherit no mass
+  std::vector<int> massless_ = {0};  // [i]: number of level i's vertices that inherit no mass
   std::vector<std::shared_ptr<const Elasticity<B>>> elasticity_;  // per level
-  // likewise, largest_eigenvalue() at rest
+  // per level, largest_eigenvalue() at rest [1/s^2]
   std::vector<double> eigenvalues_;
   std::shared_ptr<const Contact<B>> contact_;
 
@@ -140,7 +141,8 @@ class HierarchyBuilder {
     for (Point& p : surface_.vertices) p += shift;
   }
 
-  /// Level 0's start, after limits were found at rest; the other levels take it from there.
+  /// Deforms level 0 as it starts, after limits were found at rest. The other levels take their
+  /// states from it.
   void deform() {
     const TetMesh& mesh = built_.meshes.front();
     const State<B>& state = built_.hierarchy->levels.front().state;
@@ -190,8 +192,9 @@ class HierarchyBuilder {
         std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
-  /// By products with the elements' own tangent there are a third of the iterations in thick bodies
-  /// and two thirds in thin ones, which take twice as long each. In contact there are a sixth, and
+  /// Returns what a level of nodal elements gets to precondition implicit steps. Products with the
+  /// elements' own tangent (rows in float) need a third of the iterations in thick bodies and two
+  /// thirds in thin ones; each iteration takes twice as long. In contact they need a sixth, and
   /// half of them where pressures are smoothed: cmake/docs/solvers.md.
   BesideNodal beside_nodal(std::size_t i) const {
     constexpr double thick = 8;  // elements across
@@ -215,17 +218,18 @@ class HierarchyBuilder {
             static_cast<typename B::Real>(problem_.integration.switch_threshold * edge));
       level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
     }
-    // the finest level carries the surface for whoever looks at it; the others only where something
-    // acts on it
+    // the finest level has the surface for output; the others have it only where something acts on
+    // it
     if (problem_.body.surface && (i == 0 || has_contact(problem_) || problem_.surface_forces))
       level.surface = build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock,
                                           static_cast<int>(i));
   }
 
-  /// Points outside continue the tetrahedron next to them, so that they turn with it.
+  /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
+  /// they turn with it.
   Embedding embed_surface(std::size_t i) const {
-    constexpr double far = 10;  // edges; a coarse mesh may well lie a little inside its skin
+    constexpr double far = 10;  // edges; a coarse mesh may lie a little inside the surface
     Embedding embedding = locators_[i]->embed(
         surface_.vertices, parts_of_points(problem_.body.parts), Outside::extrapolate);
     if (embedding.largest_distance_over_edge > far)
@@ -314,7 +318,7 @@ class HierarchyBuilder {
     contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p));
   }
 
-  /// Of each obstacle that chooses them the surface points that it may hold.
+  /// Returns for each obstacle the surface points that it may grasp; empty: all of them.
   std::vector<std::vector<int>> holdable() const {
     std::vector<std::vector<int>> points;
     for (const ObstacleOptions& o : problem_.contact.obstacles) {
@@ -331,11 +335,11 @@ class HierarchyBuilder {
     return (box.max - box.min).norm();
   }
 
-  /// Level i's critical step, its integrator and the forces on it.
+  /// Finds level i's critical step, and makes its integrator and the forces on it.
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
     SolverLevel<B>& level = built_.hierarchy->levels[i];
-    // not the level's state, which a given motion may start elsewhere
+    // not the level's state, in which a given motion may start elsewhere
     const auto rest =
         zeros<Vectors<B>>("plica::rest", static_cast<std::size_t>(level.model.vertices));
     const StiffnessAt<B> K{level, *elasticity_[i], rest};
@@ -369,7 +373,7 @@ class HierarchyBuilder {
           constants_[i].shape, problem_.integration.relaxation, built_.meshes[i], level);
   }
 
-  /// The stepper and what it makes of the levels.
+  /// Makes the stepper, and lets it plan the steps of the levels.
   void plan() {
     Steppers::visit(problem_.integration.cycle,
                     [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });

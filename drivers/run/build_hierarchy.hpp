@@ -8,19 +8,19 @@
 
 namespace plica {
 
-/// A body ready to move, with what was decided on the way.
+/// A body that is ready to be stepped, with the decisions of its set-up.
 template <class B>
 struct BuiltHierarchy {
   std::unique_ptr<Hierarchy<B>> hierarchy;
   std::unique_ptr<Stepper<B>> stepper;
-  std::vector<TetMesh> meshes;  ///< placed, of the levels in use
+  std::vector<TetMesh> meshes;  ///< placed meshes of the levels in use
   std::vector<LevelReport> reports;
-  double macro_step = 0;         ///< [s]
-  std::optional<HimReport> him;  ///< of that stepper
+  double macro_step = 0;         ///< length of a macro step [s]
+  std::optional<HimReport> him;  ///< report of cycle him; none: another cycle
 };
 
-/// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets that plan
-/// its steps. Throws InputError.
+/// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets the
+/// stepper plan its steps. Throws InputError.
 template <class B>
 BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec);
 

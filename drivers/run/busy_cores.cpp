@@ -8,14 +8,15 @@ namespace plica {
 
 namespace {
 
-constexpr double notable = 0.05;         // of the threads' time: shorter waits are any machine's
-constexpr double faster = 0.95;          // of a step's time: less is noise
-constexpr double enough = 0.1;           // s of steps to look at together,
-constexpr double enough_to_try = 0.05;   // in a trial,
-constexpr double enough_to_fail = 0.01;  // and in one whose steps take
-constexpr double hopeless = 2;           // times as long as those before
+constexpr double notable = 0.05;         // part of the threads' time; any machine has shorter waits
+constexpr double faster = 0.95;          // part of a step's time; a smaller gain is noise
+constexpr double enough = 0.1;           // time of a batch of steps [s]
+constexpr double enough_to_try = 0.05;   // time of a batch in a trial [s]
+constexpr double enough_to_fail = 0.01;  // time of a batch in a hopeless trial [s]
+constexpr double hopeless = 2;           // a trial's time per step over that before it
 
-/// The second number of a thread's line: nanoseconds in which it waited for a core.
+/// Returns the time that all threads have waited for a core [s]. The second number of a thread's
+/// line is that time in nanoseconds.
 std::optional<double> waited_by_all_threads() {
   std::error_code none;
   double sum = 0;
@@ -39,7 +40,7 @@ std::optional<double> CoreWait::share(int threads) const {
   return std::clamp((*now - *waited_) / (threads * wall.count()), 0.0, 1.0);
 }
 
-// --- ThreadChoice ---
+// --- ThreadChoice --------------------------------------------------------------------------------
 
 ThreadChoice::ThreadChoice(int all) : rungs_{std::max(all, 1)} {
   if (all > 2) rungs_.push_back(all - 1);
@@ -66,7 +67,7 @@ void ThreadChoice::look(double now, double per_step, double waited) {
   }
 }
 
-// --- SharedCores ---
+// --- SharedCores ---------------------------------------------------------------------------------
 
 template <class B>
 SharedCores<B>::SharedCores(const Exec& all) : all_(all), choice_(all.concurrency()) {}

@@ -25,7 +25,7 @@ Eigen::Matrix3d edges(const TetMesh& mesh, const std::array<int, 4>& t,
   return m;
 }
 
-/// "neo_hookean, corotational"
+/// Returns the names of materials that push inverted elements back: "neo_hookean, corotational".
 std::string recovering_materials() {
   std::string names;
   for (const MaterialInfo& material : material_list())
@@ -33,7 +33,7 @@ std::string recovering_materials() {
   return names;
 }
 
-/// Fills in what follows from level and element.
+/// Fills in what follows from level and element: region, sub-step, remedy.
 template <class B>
 void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
   const auto i = static_cast<std::size_t>(d.level);
@@ -122,7 +122,7 @@ std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field
 
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
-  for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // the order in which levels act
+  for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // coarsest first, as levels act
     const Level<B>& level = (*built.hierarchy)[i];
     if (level.flags.evaluation.extent(0) == 0) continue;
     const auto copy = [](const auto& view) {
@@ -165,7 +165,7 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
   d.element = worst.element, d.J = worst.J;
   const bool forbidden = (*built.hierarchy)[d.level].flags.evaluation.extent(0) > 0;
-  // a cycle's repairs have lost the flag
+  // repairs of a cycle have cleared the flag
   if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";
   complete(d, built);
   return d;

@@ -21,8 +21,7 @@ MeshSize size_of_level(const Body& body, std::size_t level) {
   return mesh_size(mesh, region_densities(body, mesh));
 }
 
-// Of coarse levels that are somewhat another body; where one is quite another, the set-up refuses
-// it
+// Warns of coarse levels that may be another body. Where one certainly is, the set-up refuses it.
 void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
   const bool automatic = problem.integration.cycle == "auto";
   if (!automatic && !uses_coarse_levels(problem.integration.cycle)) return;
@@ -36,7 +35,7 @@ void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
   }
 }
 
-// Of linear elements where they are known to be too stiff, and of nodal ones that are too few
+// Warns of linear elements where they are known to be too stiff, and of too few nodal ones.
 void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
   const MaterialInfo* material = find_material(body.material.model);
   if (!material) return;
@@ -60,10 +59,10 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
              : ": expected a finer mesh"));
 }
 
-// Of a tool that is lighter than what it touches: its own inertia then counts for nothing, and it
-// is thrown about
+// Warns of a tool that is lighter than what it touches: its own inertia then counts for nothing,
+// and contact throws it about.
 void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
-  double mass = -1;  // of a vertex, in the mean [kg]
+  double mass = -1;  // mean mass of a vertex [kg]
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i) {
     const std::optional<double>& own = problem.contact.obstacles[i].mass;
     if (!own) continue;
@@ -78,7 +77,7 @@ void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
   }
 }
 
-// Of motion at contacts that these integrators let ring on from step to step
+// Warns of integrators that let motion at contacts oscillate from step to step.
 void doubt_integrator(const Problem& problem, std::vector<std::string>& sentences) {
   if (!has_contact(problem)) return;
   for (const char* name : {"generalized_alpha", "newmark"})

@@ -14,17 +14,17 @@
 #include <string>
 #include <vector>
 
-// Whether a body has got more energy than went into it.
+// Check whether a body has more energy than was put into it.
 namespace plica {
 
-/// Compares the energies that a run looks at with the first ones. Gravity is in them; what
-/// obstacles do is told. That of contact counts at the start alone: its few sweeps of a step give
-/// less force than its depth stands for.
+/// Compares energies during a run with those at its start. They include gravity; the work of
+/// obstacles is an argument. The energy of contact counts only at the start: the few sweeps of a
+/// step give less force than the depth stands for.
 class EnergyBudget {
  public:
-  static constexpr double notable = 0.1;  ///< of all that was put in: discrete energies waver
+  static constexpr double notable = 0.1;  ///< part of the energy put in: discrete ones oscillate
 
-  /// `rounding`: what energies waver by where nothing was put in [J]
+  /// Starts a budget. `rounding`: how far energies oscillate where nothing was put in [J].
   explicit EnergyBudget(double rounding = 0) : put_in_(rounding) {}
   template <class B>
   EnergyBudget(const Simulation<B>& simulation, const Problem& problem)
@@ -32,13 +32,14 @@ class EnergyBudget {
                      p_wave_modulus(problem.body.material) * simulation.levels()[0].mass /
                      problem.body.material.density) {}
 
-  /// Nothing but gravity and obstacles does work, and the elastic energy is all there.
+  /// Returns whether nothing but gravity and obstacles does work, and the elastic energy is
+  /// complete.
   static bool knows(const Problem& problem) {
     return problem.body.loads.empty() && problem.body.prescribed.empty() &&
            !is_viscous(problem.body);
   }
 
-  /// Energies at this time [s], after obstacles have done this work on the body [J].
+  /// Compares the energies at this time [s], after obstacles have done this work on the body [J].
   void look(double time, const Energies& e, double work = 0) {
     if (!looked_) start_ = e.total(), looked_ = true;
     put_in_ = std::max(put_in_, start_ + work - e.potential);
@@ -46,20 +47,21 @@ class EnergyBudget {
     if (surplus > surplus_) surplus_ = surplus, at_ = time;
   }
 
-  /// What there is to go on from, and going on from it.
+  /// Returns the numbers from which restore() continues.
   std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, surplus_, at_}; }
+  /// Continues from saved numbers; ignores a list that is too short.
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5) return;
     looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]),
     surplus_ = saved[3], at_ = saved[4];
   }
 
-  /// The most that was ever too much, of all that was ever put in: at a first touch that is next to
-  /// nothing.
+  /// Returns the largest surplus of energy, over the maximum that was ever put in. That is the
+  /// maximum of the whole run, since at a first touch next to nothing has been put in.
   double growth() const { return put_in_ > 0 ? surplus_ / put_in_ : 0; }
-  double at() const { return at_; }  ///< when [s]
+  double at() const { return at_; }  ///< time of the largest surplus [s]
 
-  /// A sentence where that is notable, else nothing.
+  /// Returns a sentence where the growth is notable, else an empty one.
   std::string warning() const {
     if (!(growth() > notable)) return {};
     return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3),
@@ -75,7 +77,7 @@ class EnergyBudget {
   double start_ = 0, put_in_, surplus_ = 0, at_ = 0;
 };
 
-/// How often a stepper has cut its own steps, of a simulation's counters.
+/// Returns from a simulation's counters how often its stepper has cut its own steps.
 inline long cuts_of(const std::map<std::string, long>& counters) {
   long cuts = 0;
   for (const char* name : {"inertia_refits", "substep_halvings"})
@@ -83,7 +85,7 @@ inline long cuts_of(const std::map<std::string, long>& counters) {
   return cuts;
 }
 
-/// The work that moving obstacles have done on a body [J], added up over its macro steps.
+/// Work that moving obstacles have done on a body [J], added up over its macro steps.
 template <class B>
 class ObstacleWork {
  public:
@@ -95,7 +97,7 @@ class ObstacleWork {
     for (Moving& one : moving_) move(simulation, simulation.tools(), one);
   }
 
-  /// After every macro step.
+  /// Adds the work of the last macro step. To be called after every one.
   void step(const Simulation<B>& simulation) {
     if (moving_.empty()) return;
     known_ = known_ && cuts_of(simulation.counters()) == 0;
@@ -113,7 +115,7 @@ class ObstacleWork {
 
   void restore(double done, bool known) { done_ = done, known_ = known; }
   double done() const { return done_; }
-  /// no step was taken again: wrenches are of its last part only
+  /// Returns whether no step was taken again; wrenches of such a step are of its last part only.
   bool known() const { return known_; }
 
  private:
@@ -137,12 +139,12 @@ class ObstacleWork {
   }
 };
 
-/// How level 0 moves as a whole, and how fast its fastest vertex moves against that.
+/// Motion of level 0 as a whole, and the speed of its fastest vertex relative to that.
 struct MotionReport {
-  Energies energies;            ///< kinetic and potential alone
+  Energies energies;            ///< kinetic and potential energy alone [J]
   Point drift = Point::Zero();  ///< mean velocity [m/s]
-  double about_mean = 0;        ///< kinetic energy of the motion about that [J]
-  /// the largest speed against a given drift, over the edge there [1/s]
+  double about_mean = 0;        ///< kinetic energy of the motion about the mean [J]
+  /// largest speed of a vertex relative to a given drift, over the edge there [1/s]
   double edges_per_second = 0;
 };
 
@@ -150,10 +152,10 @@ struct MotionReport {
 template <class B>
 class EnergyMeter {
  public:
-  /// `mesh` is that level's.
+  /// Prepares the sums. `mesh` is that of level 0.
   EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, const Point& gravity);
   MotionReport motion(const Point& drift) const;  ///< one pass over the vertices
-  Energies all(double time) const;                ///< and one over the elements and the surface
+  Energies all(double time) const;  ///< one pass each over vertices, elements and surface
 
  private:
   const Hierarchy<B>& hierarchy_;

@@ -26,7 +26,7 @@ std::string shown(const std::optional<bool>& value) {
 }
 std::string shown(const std::optional<std::string>& value) { return value.value_or("left out"); }
 
-/// A simulation has these once.
+/// Throws InputError where two bodies differ in options that a simulation has once.
 void expect_alike(const NamedBody& first, const NamedBody& other) {
   const auto same = [&](const char* key, const auto& a, const auto& b) {
     if (a != b)
@@ -68,7 +68,7 @@ void expect_joinable(const std::vector<NamedBody>& bodies) {
   }
 }
 
-/// What a part of a body is made of, all of it said.
+/// Returns the options of a region of a body with all values given: its own, else the body's.
 RegionOptions made_of(const Body& body, const RegionOptions& own, const Point& shift) {
   const MaterialInfo& law = *find_material(body.material.model);
   const auto takes = [&](const MaterialParameter& p) {
@@ -93,7 +93,7 @@ RegionOptions made_of(const Body& body, const RegionOptions& own, const Point& s
   return all;
 }
 
-/// Adds bodies to one.
+/// Joins bodies to one.
 class Joiner {
  public:
   explicit Joiner(const std::vector<NamedBody>& bodies) {
@@ -114,8 +114,10 @@ class Joiner {
  private:
   Body all_;
 
-  /// For methods that make spaces of all bodies together: the sums of what each asks for, the
-  /// coarsest with the coarsest. Where a body asks for no numbers, as many as it takes.
+  /// Returns the numbers of points of coarse spaces, for methods that make spaces of all bodies
+  /// together. They are the sums of what each body asks for, the coarsest with the coarsest. The
+  /// list is empty where a body gives no numbers: as many as it takes. None where no body asks for
+  /// spaces.
   std::optional<std::vector<int>> points_of_all() const {
     std::vector<int> sums;
     bool asked = false, numbers = true;
@@ -147,7 +149,7 @@ class Joiner {
     }
     for (const auto& [region, own] : body.regions)
       all_.regions[name + "/" + region] = made_of(body, own, shift);
-    // of which the body says nothing
+    // regions of the mesh that the body has no options for
     for (const std::string& region : all_.levels.front().region_names)
       if (region == name || region.starts_with(name + "/"))
         all_.regions.try_emplace(region, made_of(body, {}, shift));
@@ -157,7 +159,8 @@ class Joiner {
     all_.parts.push_back({name, body.material, points, body.coarsen});
   }
 
-  /// What elements have, after that of those `before`; where nothing is said, `none`.
+  /// Appends the values of `count` elements to those of the elements `before` them. Where values
+  /// are missing, they are `none`.
   template <class Value>
   static void append(std::vector<Value>& all, std::size_t before, const std::vector<Value>& more,
                      std::size_t count, const Value& none) {
@@ -198,7 +201,7 @@ class Joiner {
     }
   }
 
-  /// Replaces the mesh's sets by those that the joined body has.
+  /// Replaces the mesh's vertex sets by those of the joined body.
   static void add_selections(const std::string& name, const Body& body, TetMesh& mesh, int level) {
     std::map<std::string, std::vector<int>> sets;
     for (const auto& [set, vertices] : mesh.vertex_sets) sets[name + "/" + set] = vertices;

@@ -7,24 +7,25 @@
 
 namespace plica {
 
-/// Points of a body that are watched: each follows the tetrahedron it lies in at rest.
+/// Points of a body whose motion is sampled: each follows the tetrahedron it lies in at rest.
 template <class B>
 class MaterialPoints {
  public:
-  using Exec = typename B::Exec;  ///< where they are gathered
-  /// In the order of the points.
+  using Exec = typename B::Exec;  ///< execution space that gathers them
+  /// Motion of all points, in their order.
   struct Motion {
     std::vector<Point> displacement;  ///< [m]
     std::vector<Point> velocity;      ///< [m/s]
   };
 
-  /// A point outside the mesh is taken to the nearest point of it. InputError for points that are
-  /// not finite.
+  /// Finds the points in the mesh at rest [m]. A point outside it is taken to the nearest point of
+  /// it. Throws InputError for points that are not finite.
   MaterialPoints(const TetMesh& mesh, const std::vector<Point>& points);
 
-  const std::vector<Point>& rest() const { return rest_; }  ///< where they lie at rest [m]
+  const std::vector<Point>& rest() const { return rest_; }  ///< places at rest [m]
 
-  /// From a level's fields [vertices][3], gathered on the device in the order of `exec`; waits.
+  /// Samples a level's fields [vertices][3] m and m/s, on the device and in the order of `exec`.
+  /// Waits.
   Motion sample(const Exec& exec, const Vectors<B>& displacement, const Vectors<B>& velocity) const;
 
  private:

@@ -9,11 +9,12 @@
 
 namespace plica {
 
-/// What callers have said of the motion of obstacles since the oldest state that a simulation can
-/// go back to: in steps that are taken again obstacles move as they did the first time.
+/// Motions of obstacles as callers have set them, since the oldest state that a simulation can go
+/// back to. In steps that are taken again, obstacles move as they did the first time.
 ///
-///   then_     how each one moved before all of these
-///   said_     | time, obstacle, its motion or turn | ...      ascending in time; from next_ on, after a way back, not yet said again
+///   then_     how each obstacle moved before all of these
+///   said_     | time, obstacle, its motion or turn | ...      ascending in time
+///             after going back, those from next_ on are not yet applied again
 template <class B>
 class MotionLog {
  public:
@@ -23,14 +24,14 @@ class MotionLog {
     for (const ObstacleOptions& o : contact.obstacles) then_.push_back({o.motion, o.turn});
   }
 
-  /// From this time [s] on. What was said of later times is forgotten.
+  /// Records how an obstacle moves from this time [s] on. Forgets what was set for later times.
   void say(const Contact<B>& contact, double time, int obstacle, const Said& what) {
     said_.erase(said_.begin() + static_cast<std::ptrdiff_t>(next_), said_.end());
     said_.push_back({time, obstacle, what});
     go_on(contact, time);
   }
 
-  /// Obstacles move as they did before this time.
+  /// Makes obstacles move as they did before this time [s].
   void go_back(const Contact<B>& contact, double time) {
     for (std::size_t o = 0; o < then_.size(); ++o) {
       contact.set_motion(static_cast<int>(o), then_[o].motion);
@@ -40,12 +41,12 @@ class MotionLog {
       apply(contact, said_[next_]);
   }
 
-  /// To a step that begins at this time.
+  /// Applies what was set for a step that begins at this time [s].
   void go_on(const Contact<B>& contact, double time) {
     for (; next_ < said_.size() && said_[next_].time <= time; ++next_) apply(contact, said_[next_]);
   }
 
-  /// Nobody goes back further than to this time.
+  /// Forgets what is only needed to go back further than to this time [s].
   void forget_before(double time) {
     std::size_t count = 0;
     for (; count < next_ && said_[count].time < time; ++count) {
@@ -58,7 +59,7 @@ class MotionLog {
     next_ -= count;
   }
 
-  /// Nobody goes back at all. What was not yet said again is forgotten.
+  /// Forgets all that is only needed to go back, and what is not yet applied again.
   void forget() {
     forget_before(std::numeric_limits<double>::infinity());
     said_.clear(), next_ = 0;

@@ -7,11 +7,11 @@
 #include <plica/drivers/cycles/hierarchy.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
 
-// What obstacles did in a macro step, and where those with mass then are.
+// Obstacles in a macro step: their wrenches, the motion of those with mass, and grasping.
 namespace plica {
 
-/// The wrenches of a macro step that ends at `end`, from the levels' impulses; tools with mass take
-/// it.
+/// Computes the wrenches of a macro step that ends at `end`, from the levels' impulses. Tools with
+/// mass then take this step.
 template <class B>
 void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double end, double span) {
   const Contact<B>* contact = hierarchy[0].contact();
@@ -23,7 +23,7 @@ void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double en
   contact->move_tools(hierarchy.exec(), wrench, end, span);
 }
 
-/// An obstacle takes hold of what is near it in the present state, or lets go.
+/// Makes an obstacle grasp what is near it in the present state (`closed`), or release all of it.
 template <class B>
 void hold(Hierarchy<B>& hierarchy, int obstacle, double time, bool closed) {
   SolverLevel<B>& level = hierarchy[0];
@@ -34,10 +34,10 @@ void hold(Hierarchy<B>& hierarchy, int obstacle, double time, bool closed) {
   for (SolverLevel<B>& each : hierarchy.levels) each.integrator->forget();
 }
 
-/// What obstacles are asked to hold and to let go of in a macro step, at its start.
+/// Makes obstacles grasp and release at the start of a macro step, as their options ask for in it.
 template <class B>
 void hold_as_asked(Hierarchy<B>& hierarchy, double start, double span) {
-  constexpr double rounding = 1e-9;  // of the step
+  constexpr double rounding = 1e-9;  // part of the step
   const Contact<B>* contact = hierarchy[0].contact();
   const auto now = [&](double time) {
     return time >= start - rounding * span && time < start + (1 - rounding) * span;
@@ -51,7 +51,7 @@ void hold_as_asked(Hierarchy<B>& hierarchy, double start, double span) {
   }
 }
 
-/// to = from, where there is any
+/// Copies `from` to `to`, unless `from` is empty.
 template <class Exec, class View>
 void copy_memory(const Exec& exec, const View& from, View& to) {
   if (from.extent(0) == 0) return;
@@ -59,8 +59,9 @@ void copy_memory(const Exec& exec, const View& from, View& to) {
   copy(exec, to, from);
 }
 
-/// A tool with mass takes one step of its coupling in every macro step: no more than the springs
-/// turn in it.
+/// Throws InputError where a tool's coupling is too stiff for one step of it in every macro step.
+/// At most, its stiffness is mass / step^2, and its angular stiffness the least moment of inertia /
+/// step^2.
 inline void check_couplings(const ContactOptions& contact, double step) {
   for (std::size_t i = 0; i < contact.obstacles.size(); ++i) {
     const ObstacleOptions& o = contact.obstacles[i];

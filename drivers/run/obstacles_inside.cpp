@@ -9,7 +9,7 @@ namespace plica {
 
 namespace {
 
-/// Whether an obstacle's origin is a place inside it.
+/// Returns whether an obstacle's origin is inside it.
 bool contains_its_origin(const ObstacleOptions& options) {
   bool inside = false;
   visit_shape(options.shape, [&](auto shape, const auto& its) {

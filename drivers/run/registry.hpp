@@ -6,16 +6,16 @@
 #include <string_view>
 #include <vector>
 
-/// The families a scene chooses from, as lists to print, beside those of core/keys.hpp. Each walks
-/// the family's own list.
+/// Lists of names that a scene chooses from, to print; core/keys.hpp has more of them. Each is made
+/// from the list of types of its family.
 namespace plica {
 
-std::vector<Choice> cycles();           ///< ways to share a macro step
-std::vector<Choice> obstacle_shapes();  ///< for contact
-std::vector<Choice> linear_solvers();   ///< of implicit levels
-std::vector<Choice> preconditioners();  ///< of conjugate gradients
+std::vector<Choice> cycles();           ///< ways to share a macro step among the levels
+std::vector<Choice> obstacle_shapes();  ///< shapes of obstacles, for contact
+std::vector<Choice> linear_solvers();   ///< linear solvers of implicit levels
+std::vector<Choice> preconditioners();  ///< preconditioners of conjugate gradients
 
-/// Gives a problem the options of one of presets(). InputError for another name.
+/// Gives a problem the options of one of presets(). Throws InputError for another name.
 void apply_preset(std::string_view name, Problem& problem);
 
 }  // namespace plica

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run goes: a simulation is set up, steps, is checked, and recovers where it can. What it
-// tells of itself is in simulation_views.cpp, what it is made of in build_hierarchy.cpp.
+// A run: a simulation is set up, steps, is checked, and recovers where it can. Queries of it are in
+// simulation_views.cpp, its set-up is in build_hierarchy.cpp.
 //
-// Who owns what. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each
+// Ownership. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each
 // SolverLevel owns its data (rest shape, masses, state, work arrays), the forces on it and its
-// integrator. A Stepper decides how the levels take a macro step together; it owns what is of no
-// single level. Nothing points upwards: a level knows of no stepper, a stepper of no simulation.
+// integrator. A Stepper decides how the levels take a macro step together; it owns what belongs to
+// no single level. Nothing points upwards: a level knows of no stepper, a stepper of no simulation.
 //
 // A macro step of the paper's cycle, downwards through the files:
 //
@@ -21,15 +21,15 @@
 //               loads, contact, the caller's
 //             update velocity and place     kernels/time/updates.hpp
 //
-// With an implicit level, advance is in time/implicit.cpp: it sets the base of a stage,
+// With an implicit level, advance is in time/implicit.cpp: it sets the base of a stage, and
 // StageSolver (time/stage_solver.hpp) linearises the level and solves, by a LinearSolver of
 // linear/. The hierarchical inverse mass (cycles/him/him_stepper.hpp) evaluates the forces of the
-// finest level once and lets all levels answer them.
+// finest level once, and all levels contribute to the response.
 //
-// A step enqueues work and returns. check() waits, reads flags and sums, and looks at nothing else
-// but the state there is. What then is bad is a matter of recover(), which goes back to the last
-// state that was kept: it lets the stepper repair itself, or takes the macro steps since again in
-// halves (simulation_recovery.cpp). drivers that want all of it call step_checked().
+// A step enqueues work and returns. check() waits, reads flags and sums, and examines nothing but
+// the present state. recover() repairs a bad state. It goes back to the last snapshot and lets the
+// stepper repair itself, or takes the macro steps since then again in halves
+// (simulation_recovery.cpp). Programs that want all of this call step_checked().
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +47,7 @@ namespace plica {
 namespace {
 
 constexpr double time_rounding = 1e-9;  // relative
-// of an edge per macro step: motion that energy is not asked about
+// part of an edge per macro step: the energy of slower motion is always allowed
 constexpr double least_edge = 1e-3;
 
 const Problem& steppable(const Problem& p) {
@@ -62,7 +62,7 @@ const Problem& steppable(const Problem& p) {
 
 }  // namespace
 
-// --- Set-up ---
+// --- Set-up --------------------------------------------------------------------------------------
 
 template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
@@ -98,14 +98,14 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   open_budget();
 }
 
-// --- Step ---
+// --- Step ----------------------------------------------------------------------------------------
 
 template <class B>
 void Simulation<B>::step() {
   Inside& s = *inside_;
   s.residual = 0;
   const Kokkos::Timer timer;
-  // a short step's mean force wavers: the last whole one's stays
+  // the mean force of a short step oscillates, so that of the last whole step stays
   const bool part = s.reaches_end();
   if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
   if (s.control.halves() && (s.judges || s.control.divides()))
@@ -125,7 +125,7 @@ void Simulation<B>::end_at(double time) {
   inside_->end = time;
 }
 
-/// Whether the next macro step would go beyond the end that a caller has set.
+/// Returns whether the next macro step would go beyond the end that a caller has set.
 template <class B>
 bool Simulation<B>::Inside::reaches_end() const {
   return time < end &&
@@ -136,19 +136,19 @@ template <class B>
 double Simulation<B>::Inside::next_span() const {
   if (reaches_end()) return end - time;
   const double whole = origin + static_cast<double>(steps) * built.macro_step;
-  return built.macro_step - (time - whole);  // which is 0 but after a step that was shorter
+  return built.macro_step - (time - whole);  // time - whole is 0, except after a shorter step
 }
 
-/// The time after the next macro step; a shorter one does not count.
+/// Sets the time after a macro step, and counts it unless it was made shorter.
 template <class B>
 void Simulation<B>::Inside::arrive() {
   time = reaches_end() ? end : origin + static_cast<double>(++steps) * built.macro_step;
 }
 
-/// A macro step or a part of it; the time is the caller's.
+/// Takes a macro step or a part of it. The caller sets the time.
 template <class B>
 void Simulation<B>::Inside::advance(double from, double span) {
-  // a profiler sees every kernel by itself, and the clock waits for each stage
+  // launch each kernel alone: a profiler is to see every one, or the clock waits for each stage
   const bool apart = !graphs || hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
   const typename LaunchQueue<Exec>::Scope gather(apart ? nullptr : &queue);
   if (const Contact<B>* contact = hierarchy()[0].contact()) motions.go_on(*contact, from);
@@ -170,7 +170,7 @@ std::optional<Diagnosis> Simulation<B>::step_checked() {
   return bad;
 }
 
-// --- Check ---
+// --- Check ---------------------------------------------------------------------------------------
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
@@ -198,8 +198,8 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
   return {};
 }
 
-/// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against
-/// the body, over its edge.
+/// Returns the first check that fails. `motion`: largest displacement of a vertex in a sub-step,
+/// relative to the body, over its edge.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now,
                                                              double motion) {
@@ -214,28 +214,28 @@ std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport&
     if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
       return failure("contact", motion, 0, "surface point " + std::to_string(point));
   put_in = std::max(put_in, start - e.potential);
-  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of
-  // nothing. Twice, since discrete energies waver; never less than that of a thousandth of an edge
-  // per step
+  // Elastic and contact energy are not negative, so that kinetic energy beyond what was put in is
+  // an error. Twice as much is allowed, since discrete energies oscillate; and never less than the
+  // energy of a motion by a thousandth of an edge per step.
   const LevelReport& finest = built.reports.front();
   const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
   const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
-  // else the elastic energy is not all there, or is as much as a step that lowers its potential
-  // lets it be
+  // The elastic energy counts too, except where it is not complete, or where a step lowers its
+  // incremental potential and so limits it.
   const bool stores = control.halves() && !judges && !is_viscous(problem.body);
   if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed)
     return failure("energy", motion);
-  // An explicit sub-step is about the time that sound takes across half an element. What leaves the
-  // body as a whole by more than an edge in it is faster than sound: elements there are passed
-  // through within a step, whatever the forces say. But for the law that is linear in any state,
-  // and stable at any amplitude.
+  // An explicit sub-step is about the time that sound takes across half an element. A vertex that
+  // leaves the body as a whole by more than an edge in it is faster than sound: it passes through
+  // elements within a step, whatever the forces are. Excepted is a law that is linear in any state,
+  // and so stable at any amplitude.
   if (finest.explicit_integrator && !linear && motion > 1) return failure("speed", motion);
   return {};
 }
 
-/// Flags level 0's inverted elements as they are now. Without it the next step's first force would,
-/// which is early enough to stop, but too late to take this step again; likewise an element may
-/// have taken up energy that nothing has put in.
+/// Flags the elements of level 0 that are inverted in the present state. Else the next step's first
+/// force would flag them: early enough to stop, but too late to take this step again. In the same
+/// way, an element may have taken up energy that nothing has put in.
 template <class B>
 void Simulation<B>::Inside::look_at_end() {
   const SolverLevel<B>& level = hierarchy()[0];

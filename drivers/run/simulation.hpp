@@ -14,190 +14,220 @@
 
 namespace plica {
 
-/// A deformable body, meshed at one or several resolutions, in motion. Not copyable; one object
-/// must not be used by two threads at a time. Kokkos must be initialised before and finalised after
-/// its life.
+/// A deformable body in motion, meshed at one or several resolutions (levels, the finest first).
+/// Not copyable. Two threads must not use one object at the same time. Kokkos must be initialised
+/// before the object is made, and finalised after it is destroyed.
 template <class B>
 class Simulation {
  public:
-  using Exec = typename B::Exec;  ///< the execution space it runs on
+  using Exec = typename B::Exec;  ///< execution space of all kernels
 
-  /// Sets everything up. Throws InputError with the values, the choices and the remedy.
+  /// Builds levels, contact, integrators and the stepper. Throws InputError with the wrong values,
+  /// the possible choices and the remedy.
   explicit Simulation(const Problem& problem, const Exec& exec = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on
-  /// the way).
+  /// Takes one macro step. Enqueues work and does not wait for it, except that implicit levels read
+  /// their residuals during the step.
   void step();
 
-  /// Why the run must stop, if it must: non-finite values, inverted elements where they are not
-  /// allowed, more kinetic energy than was put in, a vertex that leaves the body by more than its
-  /// edge in one explicit sub-step, a surface point deeper in an obstacle than the body is large, a
-  /// solver that gave up, a stepper that has lost its stability. Waits. Examines the state there
-  /// is: with integration.on_failure.halvings also level 0's elements (one or two passes more).
-  /// Cheap enough to be called after every macro step; states that pass are kept from time to time.
-  /// After one that passes, sub-steps that recover() has cut may be given back: every hundred macro
-  /// steps at most it looks whether longer ones are stable, which takes as long as some ten steps.
+  /// Examines the present state and returns why the run must stop; none: it may go on. Waits.
+  ///
+  /// Reasons to stop are non-finite values; inverted elements where they are not allowed; more
+  /// kinetic energy than was put in; a vertex that leaves the body by more than its edge in one
+  /// explicit sub-step; a surface point deeper in an obstacle than the body is large; a solver that
+  /// gave up; a stepper that has lost its stability. With integration.on_failure.halvings, level
+  /// 0's elements are examined too, which takes one or two more passes over them.
+  ///
+  /// It is cheap enough for a call after every macro step. From time to time it takes a snapshot of
+  /// a state that passes. After such a state, sub-steps that recover() has shortened may become
+  /// longer again: every hundred macro steps at most, it tries whether longer ones are stable. Such
+  /// a try takes as long as about ten steps.
   std::optional<Diagnosis> check();
 
-  /// Repairs a state that did not pass check(), where that is possible: goes back to the last state
-  /// that was kept and steps again to the same time, with the inertia fitted again (cycle him), or
-  /// in halved steps (integration.on_failure). External forces are asked for again. Returns the
-  /// diagnosis of a state that is still bad, which stays as it is; none: the run goes on.
+  /// Repairs a state that did not pass check(), where that is possible. Goes back to the last
+  /// snapshot and steps again to the same time: with the inertia fitted again (cycle him), or in
+  /// halved steps (integration.on_failure). External forces are asked for again. Returns none where
+  /// the run can go on. Else returns the diagnosis of a state that is still bad, and leaves that
+  /// state as it is.
   std::optional<Diagnosis> recover(const Diagnosis& bad);
 
-  /// step(), check() and, where that finds something, recover(): one macro step of a run. Waits.
+  /// Takes one macro step of a run: step(), check() and, where that finds something, recover().
+  /// Waits. Returns none where the run can go on.
   std::optional<Diagnosis> step_checked();
 
-  /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the
-  /// others and not counted among macro_steps(); the step after it makes up the rest.
+  /// Sets the time [s] at which the run ends; infinity: no end. From now on, a macro step that
+  /// would go beyond this time ends there. It is shorter than the others and not counted in
+  /// macro_steps(); the step after it covers the rest.
   void end_at(double time);
 
-  /// Calls this after each macro step that recover() takes again, in their order; where a try
-  /// fails, from an earlier one on again. For drivers that record motion: macro_steps() and time()
-  /// say from where on it is replaced.
+  /// Sets a function that is called after each macro step that recover() repeats. Calls come in the
+  /// order of the steps; where a try fails, they start again from an earlier step. For programs
+  /// that record motion: macro_steps() and time() say from which step on the record is replaced.
   void on_repeated_step(std::function<void()> call);
-  /// The macro step whose end is the earliest state that recover() may go back to.
+  /// Returns the macro step of the earliest snapshot that recover() may go back to. The snapshot
+  /// was taken at the end of that step.
   long earliest_kept() const;
 
-  /// Takes all levels and the time back to the last state that was kept.
+  /// Restores all levels and the time from the last snapshot.
   void return_to_last_good();
 
-  double time() const;                             ///< simulated [s]
-  double macro_step() const;                       ///< [s]
-  long macro_steps() const;                        ///< done
-  const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
-  std::optional<HimReport> him() const;            ///< of that cycle
-  std::vector<Part> parts() const;                 ///< what it is made of, in and out
-  Energies energies() const;                       ///< waits
-  /// Of obstacles, then bodies, of the last macro step; after a step that end_at() made shorter, of
-  /// the one before. Waits.
+  double time() const;                             ///< simulated time [s]
+  double macro_step() const;                       ///< length of a macro step [s]
+  long macro_steps() const;                        ///< number of macro steps taken so far
+  const std::vector<LevelReport>& levels() const;  ///< levels that the cycle uses, finest first
+  std::optional<HimReport> him() const;            ///< report of cycle him; none: another cycle
+  std::vector<Part> parts() const;                 ///< parts of the simulation, in use or not
+  Energies energies() const;                       ///< energies of level 0 [J]; waits
+  /// Returns the wrenches of all obstacles, then of all bodies, over the last macro step [N, N m].
+  /// After a step that end_at() made shorter, they are those of the macro step before it. Waits.
   std::vector<Wrench> wrenches() const;
-  /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it
-  /// holds are left out. Waits.
+  /// Returns for each obstacle the largest depth of the surface in it [m]; 0: outside. Grasped
+  /// points are left out. Waits.
   std::vector<double> contact_depths() const;
-  /// Likewise in other bodies, or in itself where it folds, at the deepest place of all [m]. Waits.
+  /// Returns the largest depth of the surface in other bodies, or in itself where it folds [m].
+  /// Waits.
   double pair_depth() const;
-  /// What friction has done so far, on the body and on what rubs it [J]: below 0 it is lost, or
-  /// stored where the body sticks. Waits.
+  /// Returns the work of friction so far, on the body and on everything that rubs it [J]. Work
+  /// below 0 is energy that is lost, or stored where the body sticks. Waits.
   double friction_work() const;
-  /// Of each obstacle the part of what touches it that slips: whose friction is at its cap. Waits.
+  /// Returns for each obstacle which part of its contacts slips, from 0 to 1. A contact slips where
+  /// its friction is at its cap. Waits.
   std::vector<double> slipping() const;
-  std::vector<ToolState> tools() const;       ///< of obstacles with mass; waits
-  std::vector<HeldBy> held() const;           ///< of obstacles that can hold points; waits
-  int torn_attachments() const;               ///< points whose attachments are torn; waits
-  std::vector<CavityState> cavities() const;  ///< whose volume is given, of level 0; waits
-  /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers
-  /// each; step() updates it in place.
+  std::vector<ToolState> tools() const;       ///< obstacles with mass; waits
+  std::vector<HeldBy> held() const;           ///< points that obstacles have grasped; waits
+  int torn_attachments() const;               ///< number of points with torn attachments; waits
+  std::vector<CavityState> cavities() const;  ///< cavities of level 0 with a given volume; waits
+  /// Returns the wrenches in device memory: for each obstacle or body, 3 numbers of force [N], then
+  /// 3 of torque [N m]. step() updates them in place.
   Doubles<B> wrench() const;
-  std::map<std::string, double> stages()
-      const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
-  std::map<std::string, long> counters()
-      const;  ///< force evaluations, solver iterations, misses, switched vertices ...
-  /// The largest part of its forces that an implicit stage of the last macro step left unbalanced;
-  /// of a linearly implicit one, the relative residual of its linear solve.
+  /// Returns the wall time of each stage so far [s], by the stage's name. Empty unless
+  /// time_stages() was switched on.
+  std::map<std::string, double> stages() const;
+  /// Returns counters by name: force evaluations, solver iterations, misses, switched vertices ...
+  std::map<std::string, long> counters() const;
+  /// Returns the largest part of its forces that an implicit stage of the last macro step left
+  /// unbalanced. For a linearly implicit stage, it is the relative residual of its linear solve.
   double residual() const;
-  double worst_residual() const;  ///< of all macro steps so far
+  double worst_residual() const;  ///< largest residual() of all macro steps so far
 
-  /// A level's displacements from the placed rest mesh [m] as the device holds them, [vertices][3].
+  /// Returns a level's displacements from the placed rest mesh in device memory, [vertices][3] m.
   /// step() updates them in place; the view may outlive the simulation.
   Vectors<B> displacement(int level = 0) const;
-  /// Likewise its velocities [m/s].
+  /// Returns a level's velocities in device memory, [vertices][3] m/s. step() updates them in
+  /// place; the view may outlive the simulation.
   Vectors<B> velocity(int level = 0) const;
 
-  /// A level's positions [m] after the steps enqueued so far, in input order, into a view of the
-  /// caller's on the device: [vertices][3], float or double, in any layout. Enqueues, does not
-  /// wait; a level's first call uploads its rest positions. Throws InputError where the sizes
-  /// differ.
+  /// Copies a level's positions [m] after the steps enqueued so far into a caller's device view.
+  /// The view is [vertices][3] in input order, float or double, in any layout. Enqueues and does
+  /// not wait; the first call for a level uploads its rest positions. Throws InputError where the
+  /// sizes differ.
   void read_positions(const DeviceOutput<B>& to, int level = 0) const;
-  /// Likewise its velocities [m/s].
+  /// Copies a level's velocities [m/s] after the steps enqueued so far into a caller's device view.
+  /// The view is [vertices][3] in input order, float or double, in any layout. Enqueues and does
+  /// not wait. Throws InputError where the sizes differ.
   void read_velocities(const DeviceOutput<B>& to, int level = 0) const;
-  /// Likewise the positions [m] of the embedded surface's points, [points][3], as level 0 carries
-  /// them.
+  /// Copies the positions [m] of the embedded surface's points into a caller's device view. The
+  /// view is [points][3], float or double, in any layout. The points move with level 0. Enqueues
+  /// and does not wait. Throws InputError where the sizes differ.
   void read_surface_positions(const DeviceOutput<B>& to) const;
-  /// Likewise their velocities [m/s].
+  /// Copies the velocities [m/s] of the embedded surface's points into a caller's device view. The
+  /// view is [points][3], float or double, in any layout. The points move with level 0. Enqueues
+  /// and does not wait. Throws InputError where the sizes differ.
   void read_surface_velocities(const DeviceOutput<B>& to) const;
 
-  /// The other way: replaces level 0's state by that in views of the caller's. The next cycle
-  /// restricts it to the others. Enqueues, does not wait (but for cycle `him`, which solves for the
-  /// momenta of these velocities); the views must stay as they are until the work is done.
+  /// Replaces level 0's state by positions [m] and velocities [m/s] from a caller's device views.
+  /// The next cycle restricts it to the other levels. Enqueues and does not wait; cycle `him` is
+  /// the exception, since it solves for the momenta of these velocities. The views must stay as
+  /// they are until the work is done.
   void write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities);
 
-  /// From now on asks this function for more forces, on every level, at every state about to be
-  /// integrated; an empty one ends that. The library cannot know their stiffness: explicit levels
-  /// are stable up to h^2 k < 4 m of a vertex they act on, about, and implicit ones take it from
-  /// ForceRequest::stiffness. Since such forces may do work, check() no longer compares energies.
+  /// Sets a function that adds a caller's forces from now on; an empty one ends that. It is called
+  /// on every level, at every state that is about to be integrated. The library cannot know the
+  /// stiffness k of such forces. Explicit levels are stable up to about h^2 k < 4 m, with m of a
+  /// vertex that the forces act on. Implicit levels take k from ForceRequest::stiffness. Since such
+  /// forces may do work, check() then compares no energies.
   void set_external_forces(const ExternalForces<B>& forces);
 
-  /// From now on an obstacle moves so, not as the problem says; displacements are from where its
-  /// shape says. Its turn goes on. Does not wait. save() does not store this motion; check() no
-  /// longer compares energies. Obstacles count from 0. InputError where there is none of that
-  /// number.
+  /// Sets how an obstacle moves from now on, instead of the motion in the problem. Displacements
+  /// are relative to the place in its shape's options. How it turns is not changed. Does not wait.
+  /// save() does not store this motion, and check() then compares no energies. Obstacles count from
+  /// 0; throws InputError where there is none of that number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
-  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. One with mass and
-  /// inertia follows by its coupling; InputError for one with mass alone, which does not turn.
+  /// Sets how an obstacle turns from now on; none: it has the orientation of its shape's options.
+  /// How it moves is not changed. An obstacle with mass and inertia follows by its coupling. Throws
+  /// InputError for one with mass but without inertia, which does not turn. Does not wait. save()
+  /// does not store this turn, and check() then compares no energies.
   void set_obstacle_turn(int obstacle, const std::optional<Turn>& turn);
-  /// Likewise straight from where its motion has it now to this displacement [m] at the end of the
-  /// next macro step, where it stays: for tools that a hand or a haptic device moves. One with mass
-  /// follows by its coupling.
+  /// Moves an obstacle straight to this displacement [m] at the end of the next macro step. It
+  /// starts from where its motion has it now, and stays at the end. For tools that a hand or a
+  /// haptic device moves. An obstacle with mass follows by its coupling.
   void move_obstacle(int obstacle, const Point& displacement);
-  /// The same, and it turns in that time to this rotation, the shortest way and at one rate: about
-  /// the point of its turn, or its origin.
+  /// Moves an obstacle to a displacement [m] and a rotation vector [rad] at the end of the next
+  /// macro step. It moves straight, and turns the shortest way at one rate: about the centre of its
+  /// turn or, where it has none, about its origin.
   void move_obstacle(int obstacle, const Point& displacement, const Point& rotation);
-  /// Where its motion has it now, from where its shape says [m].
+  /// Returns an obstacle's displacement by its motion now, from the place in its shape's options
+  /// [m].
   Point obstacle_displacement(int obstacle) const;
-  /// How it is turned now: its direction is the axis, its length the angle, at most pi [rad].
+  /// Returns how an obstacle is turned now: the direction is the axis, the length the angle, at
+  /// most pi [rad].
   Point obstacle_rotation(int obstacle) const;
-  /// Where its motion and its turn have now what torques on it are about [m].
+  /// Returns the point about which torques on an obstacle are taken, as its motion and turn have
+  /// moved it [m].
   Point obstacle_origin(int obstacle) const;
 
-  /// An obstacle takes hold of the surface points that touch it now, or are within its reach,
-  /// besides those that it holds: springs tie them to where they are relative to it. Does not wait.
-  /// InputError where the problem gives it no `grasp`.
+  /// Grasps the surface points that touch an obstacle now or are within its reach. It keeps the
+  /// points that it has grasped before. Springs tie all of them to their places relative to the
+  /// obstacle. Does not wait. Throws InputError where the problem gives the obstacle no `grasp`.
   void grasp(int obstacle);
-  /// It lets go of all of them.
+  /// Releases all points that an obstacle has grasped. Throws InputError where the problem gives it
+  /// no `grasp`.
   void release(int obstacle);
 
-  /// of a level's vertices, input order [m]; waits
+  /// Returns the positions of a level's vertices, in input order [m]. Waits.
   std::vector<Point> positions(int level = 0) const;
-  std::vector<Point> velocities(int level = 0) const;  ///< likewise [m/s]
-  /// of the embedded surface's points [m]; waits
-  std::vector<Point> surface_positions() const;
-  std::vector<Point> surface_velocities() const;  ///< likewise [m/s]
+  /// Returns the velocities of a level's vertices, in input order [m/s]. Waits.
+  std::vector<Point> velocities(int level = 0) const;
+  std::vector<Point> surface_positions() const;   ///< positions of surface points [m]; waits
+  std::vector<Point> surface_velocities() const;  ///< velocities of surface points [m/s]; waits
 
-  /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts
-  /// it to the others.
+  /// Replaces level 0's displacements [m] and velocities [m/s], in input order. The next cycle
+  /// restricts them to the other levels. Throws InputError where sizes differ or a number is not
+  /// finite.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
 
-  /// From now on it is this time [s], which is finite: obstacles, loads and given motions are where
-  /// they are then. The state stays.
+  /// Sets the present time [s], which must be finite. Obstacles, loads and prescribed motions
+  /// continue from where they are at that time. The state stays.
   void set_time(double time);
 
-  /// Everything to continue from here: all levels' states and histories, time, energy budget,
-  /// counters. Waits. To be called after a step that passed check(); what a caller's own forces
-  /// remember is the caller's.
+  /// Saves everything that is needed to continue from here: states and histories of all levels,
+  /// time, energy budget, counters. Waits. Call it after a step that passed check(). A caller saves
+  /// what its own forces remember.
   SavedState save() const;
-  /// Continues as the saved simulation would have: the same bits, given the same problem, precision
-  /// and back end. InputError for a state of other fields, sizes, precision or macro step, and then
-  /// nothing has changed. Its numbers are not looked at.
+  /// Restores a saved state, and continues as the saved simulation would have. Results have the
+  /// same bits, given the same problem, precision and back end. Throws InputError for a state of
+  /// other fields, sizes, precision or macro step, and then changes nothing. The state's numbers
+  /// are not checked.
   void restore(const SavedState& saved);
 
-  /// Stress and volume of a level's elements, computed on the device; waits.
+  /// Returns stress and volume ratio of a level's elements, computed on the device. Waits.
   ElementFields element_fields(int level = 0) const;
 
-  /// From now on it takes fewer threads while other work has cores that it waits for, and more
-  /// again when they are free: where kernels wait for a thread without a core, fewer are faster.
-  /// The same bits. Does nothing on a device, or where the system does not tell who waits (Linux
-  /// does). Steps are to be called one after the other: their wall times are compared.
+  /// Uses fewer threads from now on while other work takes cores, and more again when they are
+  /// free. Where kernels wait for a thread without a core, fewer threads are faster. Results have
+  /// the same bits. Has no effect on a device, or where the system does not tell which threads wait
+  /// (Linux does). Call steps one after the other, since their wall times are compared.
   void share_cores();
 
-  /// Whether launches that come again from step to step go out as CUDA graphs, as they do by
-  /// default, or one by one. Results are the same. No effect on other back ends.
+  /// Switches CUDA graphs for launches that repeat from step to step on (the default) or off. Off,
+  /// each kernel is launched alone. Results are the same. Has no effect on other back ends.
   void use_graphs(bool on);
 
-  /// From now on measure the wall time of each stage (this waits between stages).
+  /// Switches the measurement of each stage's wall time on or off. While it is on, steps wait
+  /// between stages.
   void time_stages(bool on);
 
  private:

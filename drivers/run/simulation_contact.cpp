@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What callers say of the motion of obstacles, and what a simulation tells of its contact.
+// Motion of obstacles as callers set it, and queries of a simulation's contact.
 #include <plica/core/text.hpp>
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
@@ -22,7 +22,7 @@ const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
 
 template <class B>
 void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
-  inside_->contact_with(obstacle);  // throws where there is none
+  inside_->contact_with(obstacle);  // throws where there is no such obstacle
   validate_motion(motion);
   inside_->move(obstacle, motion);
 }

@@ -14,14 +14,14 @@
 
 namespace plica {
 
-/// Which parts a scene's simulation consists of, each with the device memory it takes.
+/// Lists the parts of a scene's simulation, each with the device memory that it takes.
 template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
 template <class B>
 using KeptStress = typename Viscosity<B>::Kept;
 
-/// What a simulation owns, for the sources that implement it.
+/// Data and functions of a simulation, for the sources that implement it.
 template <class B>
 struct Simulation<B>::Inside {
   Inside(const Problem& p, const Exec& exec);
@@ -29,64 +29,66 @@ struct Simulation<B>::Inside {
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
   LaunchQueue<Exec> queue;
-  bool graphs = true;  // of launches that come again
+  bool graphs = true;  // launches that repeat go out as CUDA graphs
   EnergyMeter<B> meter;
-  std::vector<Vectors<B>> rest;  // of each level's vertices, where somebody has asked for positions
+  // per level, rest positions of its vertices; empty until somebody has asked for positions
+  std::vector<Vectors<B>> rest;
 
-  // Now
+  // Present time and results
   double time = 0;
   long steps = 0;
-  // of the time: macro step n ends at origin + n macro_step
+  // origin of the time: macro step n ends at origin + n macro_step [s]
   double origin = 0;
-  double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
+  double end = std::numeric_limits<double>::infinity();  // no step goes beyond this time [s]
   double residual = 0, worst_residual = 0;
 
-  // Of each obstacle, over the last macro step; where the run ends within one, over the one before;
-  // the sum over the parts of one so far
+  // Wrenches, 6 numbers each: over the last macro step (where the run ends within one, over the one
+  // before); their copy during a step that is shorter; the sum over the parts of a step so far
   Doubles<B> wrench, wrench_before, wrench_sum;
 
-  // What checks compare with
+  // Reference values of checks
   bool judges = false;           // a level's integrator tells whether it has solved a step
-  bool linear = false;           // the material is, in any state
+  bool linear = false;           // the material is linear in any state
   bool budget_known = false;     // nothing from outside but gravity does work
-  bool budget_opens = false;     // anew at the next check: the state has been replaced since
-  double start = 0, put_in = 0;  // energy at the start, the most that was ever there to be had [J]
+  bool budget_opens = false;     // the state was replaced: the next check starts a new budget
+  double start = 0, put_in = 0;  // energy at the start; maximum that was ever put in [J]
   Point drift = Point::Zero();   // mean velocity at the last check [m/s]
 
-  /// A state to go back to, and what goes with it.
+  /// Snapshot: a state to go back to, and what belongs to it.
   struct Kept {
     std::vector<State<B>> levels;
-    std::vector<KeptStress<B>> stress;  ///< of viscous materials only
-    Doubles<B> memory;                  ///< of obstacles: see Contact::memory()
+    std::vector<KeptStress<B>> stress;  ///< only with viscous materials
+    Doubles<B> memory;                  ///< memory of obstacles: see Contact::memory()
     std::vector<typename ContactResponse<B>::Kept> contact;
     double time = 0, put_in = 0;
     long steps = 0;
     Point drift = Point::Zero();
   };
-  Doubles<B> memory;  // of obstacles
-  // The last state that was kept, and one from long before: what looks sound may have been going
-  // wrong for a while. The latter only where the stepper can repair.
+  Doubles<B> memory;  // memory of obstacles: see Contact::memory()
+  // The last snapshot, and one from long before: a state that looks good may have been going wrong
+  // for a while. The older one only where the stepper can repair.
   Kept kept;
   std::optional<Kept> older;
-  MotionLog<B> motions;  // of obstacles
+  MotionLog<B> motions;  // how callers have moved obstacles
   std::function<void()> after_repeated;
 
-  StepControl control;  // of macro steps that fail
-  // parts of macro steps that were taken again; that were taken though not solved
+  StepControl control;  // division of macro steps that fail
+  // number of parts of macro steps that were taken again; of parts that were taken though not
+  // solved
   long rejected = 0, unsolved = 0;
-  std::optional<Kept> part_start;  // where parts are judged
+  std::optional<Kept> part_start;  // snapshot at the start of a part, where parts are judged
 
-  std::optional<SharedCores<B>> cores;  // where it shares them with other work
+  std::optional<SharedCores<B>> cores;  // only where cores are shared with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const SolverLevel<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
-  // InputError where there is none of that number
+  // throws InputError where there is no obstacle of that number
   const Contact<B>& contact_with(int obstacle) const;
-  // InputError where it has no grasp
+  // grasps (closed) or releases; throws InputError where the obstacle has no grasp
   void hold_now(int obstacle, bool closed);
   void move(int obstacle, const typename MotionLog<B>::Said& how);  // from now on
-  // of the last part: see Integrator::unsolved()
+  // unbalanced part of the forces after the last part of a step: see Integrator::unsolved()
   double left_unsolved() const;
 
   // Steps
@@ -95,14 +97,14 @@ struct Simulation<B>::Inside {
   void advance(double from, double span);
   void arrive();
 
-  // Checks; `part`: of a macro step, that the last step covered
+  // Checks; `part`: part of a macro step that the last step covered
   std::optional<Diagnosis> examine(double part = 1);
   std::optional<Diagnosis> find_failure(const MotionReport& now, double motion);
   void look_at_end();
   Diagnosis failure(const std::string& kind, double motion = 0, int level = -1,
                     const std::string& reason = {});
 
-  // Kept states
+  // Snapshots
   void keep_at_times();
   void keep(Kept& to);
   void keep_anew();

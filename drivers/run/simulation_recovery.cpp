@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a simulation goes back: states that are kept, steps that are taken again, states from
-// outside.
+// Recovery of a simulation: snapshots, steps that are taken again, states from outside.
 #include <algorithm>
 #include <cmath>
 #include <plica/core/text.hpp>
@@ -13,15 +12,16 @@ namespace plica {
 namespace {
 
 constexpr double time_rounding = 1e-9;  // relative
-constexpr int keep_every = 20;          // macro steps
-// macro steps, at least, between the two states that are kept
+// macro steps between two snapshots; where macro steps can be halved, there is one after each
+constexpr int keep_every = 20;
+// least number of macro steps between the two snapshots
 constexpr int long_ago = 200;
-// of a stepper, until its steps stay stable to where the run was
+// maximum number of repairs of a stepper, until its steps stay stable to where the run was
 constexpr int most_repairs = 8;
 
 }  // namespace
 
-// --- Recover ---
+// --- Recover -------------------------------------------------------------------------------------
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
@@ -33,15 +33,16 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; then by the
-/// same from the state long before, if that is another one; then by one that does better still from
-/// there. False where the stepper cannot.
+/// Steps again to the present time, with a stepper that repairs itself. First it is repaired and
+/// starts from the last snapshot. Then it starts from the older snapshot, if that is another one.
+/// Then it is repaired once more and starts from there, and so on. Returns false where that does
+/// not help.
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
   const Stepper<B>& stepper = *s.built.stepper;
   const bool sees_late = stepper.sees_late();
-  const bool late = bad.kind == "stability" && sees_late;  // the last kept state is no better
+  const bool late = bad.kind == "stability" && sees_late;  // the last snapshot is no better
   const double there = s.time;
   const auto go_on = [&] {
     while (s.time < there) {
@@ -57,22 +58,22 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     if (attempt == 1 && s.older->steps == s.kept.steps) continue;
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
-    // explicit steps do not bear what has grown in the last kept state, and may take very long to
-    // fail in it
+    // Explicit steps cannot continue what has grown in the last snapshot, and may take very long to
+    // fail from it.
     if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
     if (go_on()) return true;
   }
   return false;
 }
 
-/// Once more from the last kept state to where it is, in shorter parts. What is left of `bad` where
-/// that does not help.
+/// Steps again from the last snapshot to the present time, in shorter parts. Returns a diagnosis
+/// where that does not help.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   const double there = time;
   go_back(kept);
   ++rejected;
-  // Where it was the only step since, it is known to be bad as it was.
+  // A step that is the only one since the snapshot is known to be bad in this division.
   if (there <= time + (1 + time_rounding) * next_span() && !control.halve()) return bad;
   while (time < there) {
     if (const auto still = cover(true)) return still;
@@ -82,7 +83,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   return {};
 }
 
-/// What parts of a macro step put together.
+/// Adds the wrenches of a part of a macro step, weighted by its size, to the sum over the parts.
 template <class B>
 struct AddPart {
   Doubles<B> part, sum;
@@ -90,9 +91,9 @@ struct AddPart {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const { sum(i) += *size * part(i); }
 };
 
-/// The next macro step, in parts as the control says. With `checks` each part must pass them all,
-/// else only be solved. One that is not solved is halved as long as that leaves less of it; the
-/// shortest is taken as it is.
+/// Takes the next macro step, in parts as the control says. With `checks`, each part must pass all
+/// of them, else it must only be solved. A part that is not solved is halved as long as that leaves
+/// less unsolved. The shortest part is taken as it is.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
   constexpr double all = std::numeric_limits<double>::infinity();
@@ -133,7 +134,7 @@ double Simulation<B>::Inside::left_unsolved() const {
   return most;
 }
 
-// --- Kept states, and states from outside ---
+// --- Snapshots, and states from outside ----------------------------------------------------------
 
 template <class B>
 void Simulation<B>::on_repeated_step(std::function<void()> call) {
@@ -159,7 +160,7 @@ void Simulation<B>::Inside::keep_at_times() {
   motions.forget_before(older ? older->time : kept.time);
 }
 
-/// The state and the time as they are.
+/// Takes a snapshot of the present state and time.
 template <class B>
 void Simulation<B>::Inside::keep(Kept& to) {
   const Exec& exec = hierarchy().exec();
@@ -180,7 +181,7 @@ void Simulation<B>::Inside::keep(Kept& to) {
   to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
 }
 
-/// Nothing before it counts any more.
+/// Replaces all snapshots by the present state: nothing can go back to a state before it.
 template <class B>
 void Simulation<B>::Inside::keep_anew() {
   keep(kept);
@@ -188,13 +189,13 @@ void Simulation<B>::Inside::keep_anew() {
   motions.forget();
 }
 
-/// What is about to be changed from outside, or was.
+/// Adds the state to the history of viscous stresses, before and after it is changed from outside.
 template <class B>
 void Simulation<B>::Inside::remember() {
   for (const auto& level : hierarchy().levels) level.remember(time);
 }
 
-/// To a state of all levels; coarser ones start from level 0's anew.
+/// Restores a snapshot of all levels. Coarser levels then start again from level 0's state.
 template <class B>
 void Simulation<B>::Inside::go_back(const Kept& to) {
   copy_memory(hierarchy().exec(), to.memory, memory);
@@ -217,7 +218,7 @@ void Simulation<B>::Inside::go_back(const Kept& to) {
   built.stepper->begin(hierarchy());
 }
 
-/// Level 0's state has been replaced: the other levels follow.
+/// Makes everything follow level 0's state, which was replaced: other levels, snapshots, budget.
 template <class B>
 void Simulation<B>::Inside::restart() {
   hierarchy().clear_flags();

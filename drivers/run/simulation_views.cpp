@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulation tells of itself; and what it carries from one macro step to the next, saved and
-// restored.
+// Queries of a simulation; and saving and restoring what it carries from one macro step to the
+// next.
 #include <algorithm>
 #include <plica/core/state_archive.hpp>
 #include <plica/core/text.hpp>
@@ -24,7 +24,7 @@ const SolverLevel<B>& Simulation<B>::Inside::level(int i) {
 
 template <class B>
 const Vectors<B>& Simulation<B>::Inside::rest_positions(int i) {
-  level(i);  // throws where there is none
+  level(i);  // throws where there is no such level
   Vectors<B>& x = rest[static_cast<std::size_t>(i)];
   if (x.extent(0) == 0)
     x = to_device<Vectors<B>>(
@@ -126,7 +126,7 @@ std::map<std::string, long> Simulation<B>::counters() const {
   std::map<std::string, long> all = inside_->built.stepper->counters();
   for (const auto& level : inside_->hierarchy().levels) {
     all["force_evaluations"] += level.evaluations();
-    long passes = level.evaluations();  // over the elements
+    long passes = level.evaluations();  // passes over the elements
     for (const auto& [name, count] : level.integrator->counters()) {
       all[name] += count;
       if (name == "cg_iterations") passes += count;
@@ -247,7 +247,7 @@ void persist_kept(Kept& kept, StateArchive<B>& archive) {
   for (auto& contact : kept.contact) contact.persist(archive);
 }
 
-/// Names all that is carried, in a fixed order.
+/// Names to the archive all that is carried from one macro step to the next, in a fixed order.
 template <class B, class Inside>
 void persist(Inside& s, StateArchive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));

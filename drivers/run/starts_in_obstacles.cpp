@@ -21,7 +21,7 @@ namespace plica {
 
 namespace {
 
-constexpr double bearable_depth = 0.5;  // of an edge
+constexpr double bearable_depth = 0.5;  // part of an edge
 
 ObstaclePose pose_at_start(const ObstacleOptions& options) {
   std::vector<PathKnot> knots;
@@ -34,20 +34,20 @@ ObstaclePose pose_at_start(const ObstacleOptions& options) {
   return pose;
 }
 
-/// The deepest of some places in a solid, and how many are in it.
+/// The deepest of some places in a solid, and how many of them are in it.
 struct Deepest {
   std::size_t place = 0, inside = 0;
-  double depth = 0;                                          ///< [m]
-  double nearest = std::numeric_limits<double>::infinity();  ///< of all places, how far outside [m]
+  double depth = 0;                                          ///< depth of the deepest place [m]
+  double nearest = std::numeric_limits<double>::infinity();  ///< least distance of a place [m]
 };
 
-/// An anchor may be inside the body that it holds.
+/// Returns whether an obstacle grasps the body from the start: such an anchor may be inside it.
 bool holds_at_start(const ObstacleOptions& options, const Deepest& found) {
   if (!options.grasp || !(found.nearest <= options.grasp->reach)) return false;
   return options.grasp->from.empty() || options.grasp->from.front() <= 0;
 }
 
-/// A sampled surface is looked at when it has been sampled.
+/// Finds the deepest place in an obstacle. A sampled surface is examined when it has been sampled.
 Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& places) {
   Deepest found;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
@@ -65,9 +65,9 @@ Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& pla
   return found;
 }
 
-/// Places of a solid at the start that are all inside a body which it is inside of: its middle,
-/// both ends of a long one, the corners of a box. None of a shape that does not contain its middle:
-/// a bowl, a plane.
+/// Returns places of a solid at the start: its middle, both ends of a long one, the corners of a
+/// box. If the solid is inside a body, all of them are. None for a shape that does not contain its
+/// middle: a bowl, a plane.
 std::vector<Point> marks_of(const ObstacleOptions& options) {
   std::vector<Point> marks;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
@@ -94,8 +94,8 @@ std::vector<Point> marks_of(const ObstacleOptions& options) {
   return marks;
 }
 
-/// The body where it starts. What is inside it the surface says, which is what contact moves, where
-/// that is closed; lattices reach beyond it. Else the tetrahedra of level 0 do.
+/// The body where it starts. A closed surface says what is inside it, since contact acts on the
+/// surface, and lattices reach beyond it. Else the tetrahedra of level 0 say it.
 class StartingBody {
  public:
   explicit StartingBody(const Body& body)
@@ -104,8 +104,8 @@ class StartingBody {
     around_ = {skin.min.cwiseMin(cells.min), skin.max.cwiseMax(cells.max)};
   }
 
-  /// Whether a solid is inside it, of which the surface touches nothing. Not looked at where it
-  /// turns about another point.
+  /// Returns whether a solid is inside the body, given that the surface does not touch it. One that
+  /// turns about another point than its origin is not examined: false.
   bool contains(const ObstacleOptions& options) {
     if (options.turn && options.turn->about) return false;
     std::vector<Point> marks = marks_of(options);
@@ -122,8 +122,8 @@ class StartingBody {
   const TriangleSurface& surface_;
   Point shift_;
   Box around_;
-  bool looked_ = false;                     // once something is near
-  std::optional<SignedDistance> distance_;  // of a closed surface
+  bool looked_ = false;                     // look_at_surface() was called: something is near
+  std::optional<SignedDistance> distance_;  // only for a closed surface
 
   bool is_near(const Point& x) const {
     return (x.array() >= around_.min.array()).all() && (x.array() <= around_.max.array()).all();

@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// How a macro step is divided where it fails. It goes in parts of 1/2^depth of it. A part that
-/// fails is taken again in halves; after some that pass, parts become twice as long, up to the
-/// whole. So short steps last as long as what is hard, also beyond the macro step's end.
+/// Division of a macro step that fails, into parts of 1/2^depth of it. A part that fails is taken
+/// again in halves. After some parts that pass, parts become twice as long, up to the whole step.
+/// So short parts last as long as the difficulty, also beyond the macro step's end.
 ///
 ///   depth 0   |              fails                |
 ///         1   |      fails      |
@@ -16,24 +16,25 @@ class StepControl {
  public:
   explicit StepControl(int most_halvings) : most_(most_halvings) {}
 
-  /// Whether a macro step can be halved at all.
+  /// Returns whether a macro step can be halved at all.
   bool halves() const { return most_ > 0; }
-  /// Whether the next part is not the whole.
+  /// Returns whether the next part is shorter than the whole step.
   bool divides() const { return depth_ > 0; }
 
-  // The part that is next, of a macro step
+  // The next part, its start and size as parts of a macro step
   void begin() { at_ = 0; }
   bool done() const { return at_ >= whole(); }
   double start() const { return static_cast<double>(at_) / static_cast<double>(whole()); }
   double size() const { return 1.0 / static_cast<double>(1L << depth_); }
 
-  /// It failed; false where it can be no shorter.
+  /// Halves the next part, which has failed. Returns false where it can be no shorter.
   bool halve() {
     if (depth_ == most_) return false;
     if (grew_ && passed_ < wait_) wait_ = std::min(2 * wait_, longest_wait);
     ++depth_, ++halvings_, passed_ = 0, grew_ = false;
     return true;
   }
+  /// Goes on to the next part, after one that has passed. May double its length.
   void pass() {
     at_ += whole() >> depth_;
     if (++passed_ < wait_ || depth_ == 0 || at_ % (whole() >> (depth_ - 1)) != 0) return;
@@ -52,7 +53,7 @@ class StepControl {
   static constexpr long shortest_wait = 4, longest_wait = 256;  // parts that pass before they grow
 
   int most_;
-  long at_ = 0;  ///< where the next part starts, in the shortest parts
+  long at_ = 0;  ///< start of the next part, in units of the shortest part
   long depth_ = 0, passed_ = 0, wait_ = shortest_wait, halvings_ = 0;
   bool grew_ = false;  ///< parts have grown, and not been halved since
 

@@ -22,7 +22,7 @@ namespace plica {
 
 namespace {
 
-// What the values of one struct must be to each other
+// Checks the values of one struct against each other
 template <class T>
 void check_together(const std::string&, const T&) {}
 
@@ -132,13 +132,14 @@ class Checker {
   std::string path_;
 };
 
-// A table takes what a reader may fill; a Checker only looks
+// Checks every value of a struct. A table takes a struct that a reader may fill; a Checker only
+// reads it.
 template <class T>
 void check_values(const std::string& path, const T& options) {
   Checker::inside(path, Group{}, const_cast<T&>(options));
 }
 
-/// It closes and opens in turns.
+/// Checks that an obstacle closes and opens in turns.
 void check_grasp(const std::string& path, const GraspOptions& o) {
   if (o.until.size() > o.from.size() || o.until.size() + 1 < o.from.size())
     throw InputError(path + ".until has " + std::to_string(o.until.size()) + " times and " + path +
@@ -156,7 +157,7 @@ void check_grasp(const std::string& path, const GraspOptions& o) {
   }
 }
 
-/// A tool turns where it has inertia.
+/// Checks the options of a tool that turns: one that has inertia.
 void check_inertia(const std::string& path, const ObstacleOptions& o) {
   const bool turns = !o.inertia.empty();
   const auto expect_inertia = [&](bool given, const std::string& what) {
@@ -315,7 +316,7 @@ void check_coarsen(const Problem& problem, std::size_t levels) {
   }
 }
 
-/// Whether fields have a direction at every element.
+/// Throws InputError where a field has no direction of fibres at an element.
 void check_fibres(const Body& body) {
   for (std::size_t i = 0; i < body.levels.size() && fibres_vary(body); ++i) {
     TetMesh mesh = body.levels[i];
@@ -324,7 +325,7 @@ void check_fibres(const Body& body) {
   }
 }
 
-/// Once the meshes are there: a space has no more points than the coarsest of them.
+/// Checks, once the meshes are there, that a space has no more points than the coarsest of them.
 void check_points(const Body& body) {
   const auto check = [&](const std::string& path, const std::optional<std::vector<int>>& sizes,
                          std::ptrdiff_t vertices) {

@@ -12,37 +12,42 @@ namespace plica {
 /// kernels/contact/shapes/.
 void validate(const Problem& problem);
 
-/// The part of it that needs no mesh, for a body of so many levels.
+/// Checks the part of a problem that needs no mesh, for a body of so many levels. Throws
+/// InputError.
 void validate_options(const Problem& problem, std::size_t levels);
 
-/// The part of that about methods: what cycle, integrators and linear solvers cannot do together.
+/// Checks the options of methods: what cycle, integrators and linear solvers cannot do together.
+/// Throws InputError.
 void validate_methods(const IntegrationOptions& options, std::size_t levels);
 
-/// The part of it about obstacles, bodies that touch each other, and what obstacles hold.
+/// Checks obstacles, bodies that touch each other, and attachments. Throws InputError.
 void validate_contact(const Problem& problem);
 
-/// How an obstacle turns, as far as that needs no obstacle; keys are those below `path`.
+/// Checks how an obstacle turns, as far as that needs no obstacle. Throws InputError, with keys
+/// below `path`.
 void validate_turn(const Turn& turn, const std::string& path = "turn");
-/// The same of how it moves.
+/// Checks how an obstacle moves, as far as that needs no obstacle. Throws InputError, with keys
+/// below `path`.
 void validate_motion(const Motion& motion, const std::string& path = "motion");
 
-/// What asks for all of an implicit stage's system in a matrix, as "integration.integrator is
-/// v_cycle_euler"; empty: nothing.
+/// Returns which option needs all of an implicit stage's system in a matrix, as
+/// "integration.integrator is v_cycle_euler"; empty: none.
 std::string needs_matrix(const IntegrationOptions& options);
 
-/// The part of it about cavities whose volume is given.
+/// Checks cavities whose volume is given. Throws InputError where a method cannot have them.
 void validate_cavities(const Problem& problem);
 
-/// What readers and generators promise and a caller's own mesh may not keep: numbers in range,
-/// finite places, positive volumes, every vertex used, a region for every tetrahedron. InputError
-/// otherwise, with level and number.
+/// Checks a mesh for what readers and generators promise, but a caller's own mesh may lack: numbers
+/// in range, finite places, positive volumes, every vertex used, a region for every tetrahedron.
+/// Throws InputError with level and number.
 void validate_mesh(const TetMesh& mesh, int level);
 
-/// Of each obstacle that the body starts deep in: where and how deep. InputError where one contains
-/// the whole body, or is inside it.
+/// Returns a sentence for each obstacle that the body starts deep in: where and how deep. Throws
+/// InputError where an obstacle contains the whole body, or is inside it.
 std::vector<std::string> starts_in_obstacles(const Problem& problem);
 
-/// What is allowed, but hardly meant: a sentence each. Of a problem that is valid.
+/// Returns warnings about a valid problem: a sentence for each thing that is allowed, but hardly
+/// meant.
 std::vector<std::string> doubts(const Problem& problem);
 
 }  // namespace plica

@@ -42,7 +42,7 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
                                           enclosed_volume(surface));
 }
 
-/// `what` is in products of the stage's system alone.
+/// Refuses methods that need all of the stage's system in a matrix: `what` is only in its products.
 void refuse_matrix(const Problem& problem, const std::string& what) {
   if (const std::string by = needs_matrix(problem.integration); !by.empty())
     throw InputError(
@@ -113,7 +113,7 @@ std::string needs_matrix(const IntegrationOptions& options) {
              : "";
 }
 
-/// The inertia of him does not know the stiffness of a fluid.
+/// Refuses given volumes in cycle him too: its inertia does not know the stiffness of a fluid.
 void validate_cavities(const Problem& problem) {
   const auto& loads = problem.body.loads;
   const IntegrationOptions& o = problem.integration;

@@ -11,14 +11,14 @@ namespace {
 
 using BlockRow = BlockRows::value_type;
 
-/// The first entry of a row in this column or behind it.
+/// Returns the first entry of a row whose column is not below `column`.
 template <class Row>
 auto from_column(Row& row, int column) {
   return std::lower_bound(row.begin(), row.end(), column,
                           [](const auto& e, int c) { return e.first < c; });
 }
 
-/// Each vertex's tetrahedra, ascending.
+/// Tetrahedra of each vertex, ascending.
 struct TetsOfVertices {
   std::vector<int> first, tet;
 

@@ -8,10 +8,10 @@
 
 namespace plica {
 
-/// A symmetric matrix of 3x3 blocks on the host, by rows: (column, block), columns ascending.
+/// Symmetric matrix of 3x3 blocks on the host, by rows: (column, block), columns ascending.
 using BlockRows = std::vector<std::vector<std::pair<int, Eigen::Matrix3d>>>;
 
-/// The stiffness of a mesh of linear elements at rest [N/m].
+/// Returns the stiffness of a mesh of linear elements at rest [N/m].
 /// @param lame  lambda and mu per region of the mesh [Pa]
 BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<double, 2>>& lame);
 

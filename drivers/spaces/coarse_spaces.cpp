@@ -13,15 +13,15 @@ namespace plica {
 
 namespace {
 
-constexpr double too_stiff = 3.5;  // times the median
+constexpr double too_stiff = 3.5;  // lambda_a over the median
 constexpr int elimination_rounds = 12;
 constexpr double most_removed = 0.35, most_followed_weight = 2, least_followed = 1e-9;
 constexpr std::size_t fewest_neighbours = 3;
 
 using Row = std::vector<std::pair<int, double>>;
 
-/// Vertices are taken out one after the other; what is left is a smaller body with its own K and
-/// masses.
+/// Elimination of vertices one after the other. The remaining vertices are a smaller body with its
+/// own K and masses.
 class Elimination {
  public:
   Elimination(const TetMesh& mesh, const std::vector<char>& constrained, std::vector<double>&& mass,
@@ -67,9 +67,9 @@ class Elimination {
   BlockRows K_;
   std::vector<char> gone_;
   std::vector<double> lambda_;  // lambda_a
-  std::vector<int> locked_;     // the last round in which a neighbour was taken out
-  std::vector<int> order_;      // the vertices taken out
-  std::vector<Row> follows_;    // of each, the neighbours that it follows
+  std::vector<int> locked_;     // per vertex the last round in which a neighbour was eliminated
+  std::vector<int> order_;      // eliminated vertices, in order
+  std::vector<Row> follows_;    // for each of `order_` the neighbours that it follows, with weights
   LinearFit fit_;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver_;
   std::vector<double> weight_;
@@ -98,7 +98,7 @@ class Elimination {
   }
 
   void eliminate(int a, int round) {
-    const auto row = K_[index_of(a)];  // with the own block
+    const auto row = K_[index_of(a)];  // with the diagonal block
     if (locked_[index_of(a)] == round || row.size() - 1 < fewest_neighbours) return;
     double radius = 0;
     const auto offset = [&](int b) {
@@ -118,8 +118,8 @@ class Elimination {
     take_out(a, row, followed, round);
   }
 
-  /// K and m of the others, with u_a the sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c + w_b K_aa
-  /// w_c, m_b += w_b m_a.
+  /// Updates K and m of the other vertices for u_a = sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c +
+  /// w_b K_aa w_c, m_b += w_b m_a.
   void take_out(int a, const BlockRows::value_type& row, const Row& followed, int round) {
     Eigen::Matrix3d own = block(a, a);
     BlockRows::value_type beside;
@@ -138,7 +138,8 @@ class Elimination {
     K_[index_of(a)].clear();
   }
 
-  /// Who follows vertices that went later follows what those follow.
+  /// Writes the matrix `up` and the kept vertices. A vertex may follow vertices that were
+  /// eliminated later: it then follows the kept vertices that these follow.
   void write(SliverSpace& result) const {
     std::vector<int> number(mass_.size(), -1);
     for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
@@ -169,7 +170,7 @@ namespace {
 constexpr int fewest_free = 120;
 constexpr double most_ratio = 5;
 
-/// The columns of free points, and these points.
+/// Returns the columns of P for free points, and removes the other points from `points`.
 RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& constrained,
                               std::vector<int>& points) {
   std::vector<int> number, free;
@@ -182,7 +183,8 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
                     [&](Eigen::Index, int column, double) { return number[index_of(column)]; });
 }
 
-/// None where there are no slivers. Vertices whose motion is given have no column.
+/// Returns the sliver space, without columns for vertices whose motion is given. Returns nothing
+/// where the mesh has no slivers.
 std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<char>& constrained,
                                       const std::vector<double>& mass, const BlockRows& K) {
   auto slivers = sliver_space(mesh, constrained, mass, K);
@@ -208,8 +210,8 @@ RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
   return some;
 }
 
-/// The first of these points, `count` of them free, ascending: neighbours beside each other, as in
-/// the mesh.
+/// Returns the first points of `order`, `count` of them free, sorted by their numbers. Neighbours
+/// thus stay close in memory, as in the mesh.
 std::vector<int> first_free(const std::vector<int>& order, int count,
                             const std::vector<char>& constrained) {
   std::vector<int> points;
@@ -219,7 +221,7 @@ std::vector<int> first_free(const std::vector<int>& order, int count,
   return points;
 }
 
-/// Where these numbers stand among others; both ascending.
+/// Returns the index of each number in `others`; both are ascending.
 std::vector<int> places_of(const std::vector<int>& numbers, const std::vector<int>& others) {
   std::vector<int> places;
   auto other = others.begin();
@@ -280,7 +282,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     }
   });
   for (std::size_t i = 0; i < count; ++i) {
-    // from the points above, along the edges of their graph
+    // Fit to the points above, with distances along the edges of their graph
     const EdgeGraph& edges = i == 0 ? graph : graphs[i - 1].graph;
     const std::vector<int>& above = i == 0 ? all : points[i - 1];
     const RowMatrix P =
@@ -289,7 +291,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     rows = points[i];
     spaces.push_back({without_constrained(P, constrained, rows), rows, graphs[i].spacing});
   }
-  drop_constrained_rows(spaces.front().up, constrained);  // they have no part in any
+  drop_constrained_rows(spaces.front().up, constrained);  // given motions are not interpolated
   return spaces;
 }
 

@@ -12,9 +12,9 @@ namespace plica {
 
 namespace {
 
-/// Elements of one region that follow each other in a mesh. Their gradients enter a stiffness as
-/// what is linear in them over the cell: by their products with four functions, 1 x y z made
-/// orthonormal over its elements. Of up to four elements all of them enters.
+/// Consecutive elements of one region of a mesh. Only the part of the gradients that is linear over
+/// the cell enters a stiffness. It is given by the products of the gradients with four functions:
+/// 1, x, y, z, made orthonormal over the elements. With up to four elements no part is lost.
 class Cell {
  public:
   static constexpr int functions = 4;
@@ -39,8 +39,8 @@ class Cell {
     corners_.erase(kept + 1, corners_.end());
   }
 
-  /// Calls use(column, moments of the gradient) for the entries of P that reach it, columns several
-  /// times.
+  /// Calls use(column, moments of the gradient) for all entries of P at the cell's vertices. A
+  /// column may come several times.
   template <class Use>
   void for_moments(const RowMatrix& P, const Use& use) const {
     for (const auto& [a, moments] : corners_)
@@ -49,10 +49,10 @@ class Cell {
   }
 
  private:
-  std::vector<std::pair<int, Moments>> corners_;  // of their shape functions
+  std::vector<std::pair<int, Moments>> corners_;  // vertex, moments of its shape function
 
-  /// [elements][functions]; those that depend on the ones before are 0. Of so few elements each has
-  /// its own.
+  /// Returns the orthonormal functions, [elements][functions]. A function that depends on the ones
+  /// before is 0. With up to four elements each element has a function of its own.
   static Eigen::MatrixXd orthonormal_functions(const TetMesh& mesh, std::size_t first,
                                                const std::vector<TetGradients>& elements) {
     const auto n = static_cast<Eigen::Index>(elements.size());
@@ -82,14 +82,15 @@ class Cell {
   }
 };
 
-/// Cells of one region, beside each other. The moments g of the gradients of P's columns are one
-/// dense matrix, and what they add to the coarse stiffness is made of its product with itself:
+/// Consecutive cells of one region. The moments g of the gradients of P's columns are one dense
+/// matrix. Its product with itself gives the cells' part of the coarse stiffness:
 ///
-///   G_kl = sum of g_I,k g_J,l over the cells and their functions        K_IJ += lambda G + mu G^T + mu (tr G) 1
+///   G_kl = sum of g_I,k g_J,l over the cells and their functions
+///   K_IJ += lambda G + mu G^T + mu (tr G) 1
 class Cells {
  public:
   explicit Cells(std::array<double, 2> lame) : lame_(lame) {}
-  /// A cell of the elements from `first` to `last`.
+  /// Adds a cell of the elements [first, last).
   void add(std::size_t first, std::size_t last) { elements_.emplace_back(first, last); }
 
   void multiply(const TetMesh& mesh, const RowMatrix& P) {
@@ -116,7 +117,7 @@ class Cells {
     dense::add_gram(static_cast<int>(g.rows()), static_cast<int>(3 * n), g.data(), G_.data());
   }
 
-  /// The lower half of rows 3 first to 3 last.
+  /// Adds the cells' part to the lower half of K, rows [3 first, 3 last).
   void add_to(Eigen::MatrixXd& K, int first, int last) const {
     const auto n = static_cast<Eigen::Index>(columns_.size());
     const auto sum = [&](Eigen::Index i, Eigen::Index j) { return i >= j ? G_(i, j) : G_(j, i); };
@@ -135,10 +136,10 @@ class Cells {
 
  private:
   std::array<double, 2> lame_;
-  std::vector<std::pair<std::size_t, std::size_t>> elements_;  // of each cell
+  std::vector<std::pair<std::size_t, std::size_t>> elements_;  // first and last + 1 of each cell
   std::vector<Cell> cells_;
   std::vector<int> columns_;
-  Eigen::MatrixXd G_;  // its lower half, [k][column]
+  Eigen::MatrixXd G_;  // lower half of the products; rows and columns are [k][column]
 };
 
 }  // namespace

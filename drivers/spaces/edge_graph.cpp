@@ -21,7 +21,8 @@ WaveQueue::WaveQueue(const EdgeGraph& graph) {
   const double width =
       std::max({graph.mean, 2 * graph.longest / static_cast<double>(most_waves), 1e-300});
   per_metre_ = 1 / width;
-  std::size_t count = 4;  // a distance exceeds the last one taken by an edge at most
+  // All waves in the queue at a time: a distance exceeds the last one removed by an edge at most
+  std::size_t count = 4;
   while (static_cast<double>(count) < graph.longest / width + 3) count *= 2;
   waves_.resize(count), mask_ = count - 1;
 }
@@ -40,7 +41,7 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
     const auto place = index_of(next[index_of(v)]++);
     graph.neighbour[place] = other, graph.length[place] = length;
   };
-  // first all lower neighbours of each vertex, then the higher ones: ascending
+  // All lower neighbours of each vertex are entered first, then the higher ones: ascending
   const auto length = [&](const auto& edge) {
     return (mesh.vertices[index_of(edge[1])] - mesh.vertices[index_of(edge[0])]).norm();
   };
@@ -58,7 +59,7 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count,
   std::vector<double> distance(index_of(graph.vertices()), unreached);
   std::vector<std::pair<double, int>> all;
   for (int v = 0; v < graph.vertices(); ++v) all.emplace_back(unreached, v);
-  // distances that may have shrunk since
+  // Distances in this queue may be too large: they are compared with `distance` when removed
   std::priority_queue furthest(std::less<>(), std::move(all));
   std::vector<int> points;
   WaveQueue open(graph);
@@ -90,16 +91,17 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count,
 
 namespace {
 
-/// Each vertex's nearest point.
+/// Nearest point of each vertex.
 struct Nearest {
   std::vector<double> distance;  ///< along edges [m]
-  std::vector<int> owner;        ///< the point, or -1: no way leads to one
+  std::vector<int> owner;        ///< index of the point; -1: no path leads to one
 };
 
 Nearest nearest_points(const EdgeGraph& graph, const std::vector<int>& points) {
   Nearest all{std::vector(index_of(graph.vertices()), unreached),
               std::vector(index_of(graph.vertices()), -1)};
-  // the nearest on top: of two points as near, which one a vertex goes to depends on the order
+  // The nearest vertex is on top. A sorted queue is needed: which of two equally near points a
+  // vertex gets depends on the order.
   using Open = std::pair<double, int>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   const auto reach = [&](int v, double distance, int owner) {
@@ -125,7 +127,7 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
   const Grouping owned(nearest.owner, points.size());
   PointGraph result;
   EdgeGraph& coarse = result.graph;
-  // from the present point to another one, where they meet
+  // Shortest path from point `a` to each other point that it meets [m]
   std::vector<double> way(points.size(), unreached);
   std::vector<int> met;
   int connected = 0;

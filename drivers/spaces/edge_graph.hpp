@@ -8,21 +8,23 @@
 
 namespace plica {
 
-/// Vertices and edges between them, by rows.
+/// Graph of vertices and the edges between them, by rows.
 struct EdgeGraph {
-  std::vector<Point> place;      ///< of a vertex [m]
-  std::vector<int> first{0};     ///< [vertices + 1] into the following
-  std::vector<int> neighbour;    ///< of a vertex, ascending
-  std::vector<double> length;    ///< of that edge, not below the straight distance [m]
-  double mean = 0, longest = 0;  ///< of the lengths [m]
+  std::vector<Point> place;      ///< position of each vertex [m]
+  std::vector<int> first{0};     ///< [vertices + 1] start of each row in `neighbour` and `length`
+  std::vector<int> neighbour;    ///< neighbours of each vertex, ascending
+  std::vector<double> length;    ///< edge lengths, not below the straight distance [m]
+  double mean = 0, longest = 0;  ///< mean and maximum of the edge lengths [m]
 
-  /// A way along edges over the straight one, at most, where the body fills the space between.
+  /// Maximum ratio of a path along edges to the straight distance where the body fills the space
+  /// between.
   static constexpr double detour = 1.4;
 
+  /// Returns the number of vertices.
   int vertices() const { return static_cast<int>(first.size()) - 1; }
-  /// The straight distance of two vertices; or a longer one where the way along edges makes more
-  /// than a detour. [m]
-  /// @param along  the length of this way [m]
+  /// Returns the distance of two vertices: max(straight distance, along / detour) [m]. It is longer
+  /// than the straight distance where the path goes around a gap in the body.
+  /// @param along  length of the path along edges [m]
   double distance(int v, int w, double along) const {
     return std::max(
         (place[static_cast<std::size_t>(v)] - place[static_cast<std::size_t>(w)]).norm(),
@@ -30,36 +32,42 @@ struct EdgeGraph {
   }
 };
 
-/// The edges of a mesh.
+/// Returns the graph of the edges of a mesh.
 EdgeGraph edge_graph(const TetMesh& mesh);
 
-/// Some vertices of a graph, the points, as a smaller graph. Each owns the vertices that are
-/// nearest to it along edges. Where what two of them own meets they are neighbours, and the edge is
-/// as long as their distance().
+/// Graph of some vertices, the points, of a larger graph. Each point owns the vertices that are
+/// nearest to it along edges. Two points are neighbours if an edge connects the vertices that they
+/// own. The length of the edge between the points is their EdgeGraph::distance().
 struct PointGraph {
-  EdgeGraph graph;     ///< of the points, in their order
-  double spacing = 0;  ///< the mean distance along edges from a point to the nearest other one [m]
+  EdgeGraph graph;     ///< graph of the points, in the order given
+  double spacing = 0;  ///< mean distance along edges from a point to the nearest other one [m]
 };
 
-/// @param points  numbers of vertices
+/// Builds the graph of some points of a graph.
+/// @param points  vertex numbers of the points
 PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points);
 
-/// Distances along edges and the vertex, about the nearest first: by intervals of distance (Dial
-/// 1969). Where all that can shorten a distance is gone through again, distances come out as with a
-/// queue that is sorted, in a fraction of its time.
+/// Priority queue of vertices by distance along edges, sorted into intervals of distance (Dial
+/// 1969). Within an interval the order is arbitrary. A shortest-path search that visits a vertex
+/// again when its distance shrinks finds the same distances as with a sorted queue, in a fraction
+/// of the time.
 class WaveQueue {
  public:
-  /// @param graph  its edges' lengths are what one distance can exceed another by
+  /// Chooses the intervals for the edge lengths of a graph.
+  /// @param graph  a distance exceeds the last one that was removed by one of its edges at most
   explicit WaveQueue(const EdgeGraph& graph);
 
+  /// Returns whether the queue is empty.
   bool empty() const { return size_ == 0; }
-  /// For distances from 0 on; when it is empty.
+  /// Starts again at distance 0; the queue must be empty.
   void start() { now_ = 0; }
-  /// A distance not below that of the last one that was taken [m].
+  /// Adds a vertex.
+  /// @param distance  not below that of the last vertex that was removed [m]
   void put(double distance, int vertex) {
     waves_[interval(distance) & mask_].emplace_back(distance, vertex);
     ++size_;
   }
+  /// Removes and returns a distance [m] and vertex from the first interval that has one.
   std::pair<double, int> take() {
     while (waves_[now_ & mask_].empty()) ++now_;
     const std::pair<double, int> nearest = waves_[now_ & mask_].back();
@@ -78,23 +86,26 @@ class WaveQueue {
   }
 };
 
-/// Vertices and their distance along edges from one of them. Its memory serves many walks.
+/// Search for vertices by their distance along edges from one of them. The memory is reused by all
+/// searches of an object.
 class EdgeWalk {
  public:
+  /// Keeps a reference to `graph`, which must outlive this.
   explicit EdgeWalk(const EdgeGraph& graph)
       : graph_(graph), queue_(graph), state_(static_cast<std::size_t>(graph.vertices())) {}
 
-  /// Calls visit(vertex, distance) for all that are not further than `reach` [m], the start
-  /// included, in no particular order.
+  /// Calls visit(vertex, distance) for all vertices within `reach` [m], the start included, in no
+  /// particular order.
   template <class Visit>
   void from(int start, double reach, const Visit& visit) {
     from(
         start, reach, [](int) { return 0.0; }, visit);
   }
 
-  /// The same where only some vertices matter. The others may be left out, or come with a distance
-  /// that is too long.
-  /// @param beyond  of a vertex: no way from it to one that matters is shorter [m]
+  /// Calls visit(vertex, distance) within `reach` [m] for a search where only some vertices matter.
+  /// The other vertices may be left out, or get a distance that is too long.
+  /// @param beyond  beyond(vertex): lower bound of the distance from it to a vertex that matters
+  /// [m]
   template <class Beyond, class Visit>
   void from(int start, double reach, const Beyond& beyond, const Visit& visit) {
     ++now_;
@@ -117,7 +128,7 @@ class EdgeWalk {
  private:
   struct State {
     double distance = 0;
-    int walk = 0;  // in which it was last reached
+    int walk = 0;  // number of the last walk that reached the vertex
   };
   const EdgeGraph& graph_;
   WaveQueue queue_;
@@ -136,11 +147,11 @@ class EdgeWalk {
   }
 };
 
-/// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez
-/// 1985): any first part of them is spread evenly. Every part of a body that hangs together gets
-/// one before any gets its second.
-/// @param count        how many; vertices that are `apart` come on top of it
-/// @param apart        per vertex; or empty
+/// Returns vertices in an order in which each is the furthest, along edges, from all before it
+/// (Gonzalez 1985). The first n of them are therefore spread evenly for any n. Every connected part
+/// of a body gets one vertex before any part gets a second one.
+/// @param count  number of vertices to return, not counting those that are `apart`
+/// @param apart  per vertex nonzero if it may be chosen but is not counted; or empty
 std::vector<int> farthest_points(const EdgeGraph& graph, int count,
                                  const std::vector<char>& apart = {});
 

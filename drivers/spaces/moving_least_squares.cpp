@@ -10,19 +10,19 @@ namespace plica {
 
 namespace {
 
-constexpr double radius_growth = 1.8;        // of the radius, at most
-constexpr double radius_growth_step = 1.16;  // of it, at a time
-constexpr double most_fit_weight = 2;        // sum of |weights| of a good fit
+constexpr double radius_growth = 1.8;        // maximum factor on the radius
+constexpr double radius_growth_step = 1.16;  // factor on the radius in one step
+constexpr double most_fit_weight = 2;        // maximum sum of |weights| of a good fit
 constexpr double least_fit_spread = 1e-3;
 constexpr double least_fit_weight = 1e-4;
 constexpr std::size_t fewest_fitted = 6;
 
 struct Near {
-  int point;        // its number in the list
+  int point;        // index in the list of points
   double distance;  // [m]
 };
 
-/// How far a vertex is from the ball in which points count at all.
+/// Distance of a vertex to the ball that all points of a fit are in: a lower bound for EdgeWalk.
 struct BeyondBall {
   const EdgeGraph& graph;
   int centre;
@@ -51,7 +51,8 @@ class Fitter {
     double distance;  // [m]
   };
 
-  /// The rows that point j reaches; place: of a vertex among the rows, or -1.
+  /// Finds the rows within the first radius of point j.
+  /// @param place  per vertex its index among the rows, or -1
   void reached(int j, const std::vector<int>& place, std::vector<Reached>& rows) {
     const int point = points_[index_of(j)];
     walk_.from(point, EdgeGraph::detour * radius_, BeyondBall{graph_, point, radius_},
@@ -62,8 +63,8 @@ class Fitter {
                });
   }
 
-  /// The row of vertex `a` as (point, weight): by the points `near` within the first radius, or by
-  /// more of them.
+  /// Computes the row of vertex `a` as (point, weight). It uses the points `near` within the first
+  /// radius, or more points within a larger radius if the fit is not good.
   void fit(int a, std::span<const Near> near, std::vector<std::pair<int, double>>& row) {
     row.clear();
     if (good(a, near, radius_, row)) return;
@@ -79,7 +80,7 @@ class Fitter {
     for (double radius = radius_growth_step * radius_; radius <= widest;
          radius *= radius_growth_step)
       if (good(a, more, radius, row)) return;
-    // as many directions as it takes
+    // Leave out the flattest directions until the fit is good
     gather(a, more, widest);
     for (int dropped = 0; fit_.size() > 0 && dropped <= 3; ++dropped)
       if (fit_.weights(dropped, weight_) <= most_fit_weight || dropped == 3) return take(row);
@@ -89,10 +90,10 @@ class Fitter {
   const EdgeGraph& graph_;
   const std::vector<int>& points_;
   double radius_;
-  std::vector<int> number_;  // of a vertex among the points, or -1
+  std::vector<int> number_;  // per vertex its index among the points, or -1
   EdgeWalk walk_;
   LinearFit fit_;
-  std::vector<int> fitted_;  // points in it
+  std::vector<int> fitted_;  // points of the fit
   std::vector<double> weight_;
 
   void gather(int a, std::span<const Near> near, double radius) {
@@ -127,9 +128,9 @@ class Fitter {
   }
 };
 
-/// Each row's points within the first radius, ascending.
+/// Points of each row within the first radius, ascending.
 struct Neighbourhoods {
-  std::vector<std::size_t> first;  // of a row in `near`
+  std::vector<std::size_t> first;  // per row its first index in `near`
   std::vector<Near> near;
 
   std::span<const Near> of(std::size_t row) const {
@@ -137,7 +138,7 @@ struct Neighbourhoods {
   }
 };
 
-/// By walks from the points, which are fewer than the rows.
+/// Finds the points of each row by walks from the points, which are fewer than the rows.
 Neighbourhoods neighbourhoods(const EdgeGraph& graph, const std::vector<int>& rows,
                               const std::vector<int>& points, double radius) {
   std::vector<int> place(graph.place.size(), -1);

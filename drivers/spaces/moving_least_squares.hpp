@@ -8,24 +8,27 @@
 
 namespace plica {
 
-/// The weight of a point at s radii: (1 - s)^2 (1 + 2 s), and 0 from s = 1.
+/// Returns the weight of a point at s radii: (1 - s)^2 (1 + 2 s), and 0 from s = 1.
 inline double fit_weight(double s) { return s < 1 ? (1 - s) * (1 - s) * (1 + 2 * s) : 0; }
 
-/// How the value of a field at one place follows from its values at points near it: the weighted
-/// least-squares fit of degree one (moving least squares, Lancaster & Salkauskas 1981). Fields that
-/// are linear there are reproduced. Points in a plane or on a line say nothing of the directions
-/// across it: those can be left out of the fit, which then is constant in them.
+/// Weighted least-squares fit of degree one to a field, from its values at points near a place.
+/// These are moving least squares (Lancaster & Salkauskas 1981). Linear fields are reproduced.
+/// Points in a plane or on a line do not define the slope across it. Such directions can be left
+/// out of the fit, which is then constant along them.
 class LinearFit {
  public:
+  /// Removes all points.
   void clear() { offset_.clear(), weight_.clear(); }
-  /// @param offset  from the place to the point [any length that is near 1 for all]
+  /// Adds a point.
+  /// @param offset  from the place to the point, in a unit of length that makes all offsets near 1
   /// @param weight  > 0
   void add(const Point& offset, double weight) {
     offset_.push_back(offset), weight_.push_back(weight);
   }
+  /// Returns the number of points.
   std::size_t size() const { return offset_.size(); }
 
-  /// After the points are in.
+  /// Computes the moments of the points; call it after the last add().
   void prepare() {
     sum_ = 0, centre_.setZero();
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
@@ -36,11 +39,11 @@ class LinearFit {
     axes_.computeDirect(moments);
   }
 
-  /// The variance of the points in the direction in which they are flattest.
+  /// Returns the variance of the points in the direction in which they are flattest.
   double flattest() const { return axes_.eigenvalues()[0]; }
 
-  /// The points' weights without the `dropped` flattest directions; they sum to 1. Returns the sum
-  /// of their magnitudes.
+  /// Computes the weights of the points in the fit without the `dropped` flattest directions. They
+  /// sum to 1. Returns the sum of their magnitudes.
   double weights(int dropped, std::vector<double>& result) const {
     constexpr double flat = 1e-4;
     Point slope = Point::Zero();
@@ -65,15 +68,17 @@ class LinearFit {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes_;
 };
 
-/// A field at some vertices of a graph from its values at points, which are vertices of it too,
-/// [rows x points]: a linear fit at each (see LinearFit). A point at the distance d (see
-/// EdgeGraph::distance) counts with the weight of s = d / r: parts of a body that are close but not
-/// connected do not follow each other. r is `reach` times `spacing`; it grows up to 1.8 times while
-/// there are fewer than six points or they do not give a good fit. What then is still flat is
-/// fitted in fewer directions. Weights below 1e-4 are left out; rows sum to 1.
-/// @param rows     the vertices
-/// @param points   others, or the same
+/// Returns the matrix that gives a field at vertices of a graph from its values at points, [rows x
+/// points]. Each row is a LinearFit at a vertex. A point at the distance d (see
+/// EdgeGraph::distance) has the fit_weight() of s = d / r. Distances are along edges, so that parts
+/// of a body that are close but not connected do not follow each other. r is `reach` times
+/// `spacing`. It grows up to 1.8 times while there are fewer than six points or the fit is not
+/// good. If it then is not good yet, the flattest directions are left out. Weights below 1e-4 are
+/// left out; rows sum to 1.
+/// @param rows     vertices of the graph
+/// @param points   vertices of the graph; they may also be in `rows`
 /// @param spacing  see PointGraph [m]
+/// @param reach    radius r over the spacing
 RowMatrix moving_least_squares(const EdgeGraph& graph, const std::vector<int>& rows,
                                const std::vector<int>& points, double spacing, double reach);
 

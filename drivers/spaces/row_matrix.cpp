@@ -29,7 +29,7 @@ RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows,
 
 namespace {
 
-/// A row in the making.
+/// Row of a product while it is summed.
 class ProductRow {
  public:
   explicit ProductRow(Eigen::Index columns)
@@ -37,8 +37,8 @@ class ProductRow {
         known_(sum_.size(), 0),
         columns_(sum_.size() + 1) {}
 
-  /// += factor times a row of B, from a column on. Without branches: which columns are new is hard
-  /// to foresee.
+  /// Adds factor times a row of B, from column `from` on. The loop has no branch: a branch on
+  /// whether a column is new would be hard to predict.
   void add(double factor, const RowMatrix& B, Eigen::Index row, int from = 0) {
     const int *const column = B.innerIndexPtr(), *const last = column + B.outerIndexPtr()[row + 1];
     const double* const value = B.valuePtr();
@@ -54,7 +54,7 @@ class ProductRow {
     count_ = static_cast<std::size_t>(next - columns_.data());
   }
 
-  /// Moves what was added to the end of `rows`, columns ascending.
+  /// Appends the row to `rows`, columns ascending, and clears it.
   void append_to(MatrixRows& rows) {
     const std::span<int> columns(columns_.data(), count_);
     std::ranges::sort(columns);
@@ -68,13 +68,13 @@ class ProductRow {
   }
 
  private:
-  std::vector<double> sum_;   // 0 where nothing was added
-  std::vector<char> known_;   // where something was
-  std::vector<int> columns_;  // there; one place more, for what is known already
+  std::vector<double> sum_;   // per column; 0 where nothing was added
+  std::vector<char> known_;   // per column, 1 where something was added
+  std::vector<int> columns_;  // known columns; one more place is overwritten by repeated columns
   std::size_t count_ = 0;
 };
 
-/// A B, of row i from column from(i) on.
+/// Returns A B; row i is computed from column from(i) on.
 template <class From>
 RowMatrix product_from(const RowMatrix& A, const RowMatrix& B, const From& from) {
   const auto rows = static_cast<std::size_t>(A.rows());

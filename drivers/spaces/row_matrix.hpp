@@ -5,37 +5,39 @@
 #include <utility>
 #include <vector>
 
-// Sparse matrices of the host by rows: what is done to all of their rows, by all threads.
+// Sparse matrices on the host by rows, and operations on all rows by all threads.
 namespace plica {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same
-/// bits for any number of threads.
+/// Returns A B, computed by all threads of the host. Every entry is summed in the order of A's
+/// columns, so that its bits do not depend on the number of threads.
 RowMatrix product(const RowMatrix& A, const RowMatrix& B);
 
-/// P^T A P of a symmetric A.
+/// Returns P^T A P for a symmetric A.
 RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
 
-/// The matrix of these rows of (column, value), columns ascending.
+/// Returns the matrix with the given rows of (column, value), columns ascending.
 RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows,
                          Eigen::Index columns);
 
-/// Some of a matrix's rows, one after the other.
+/// Consecutive rows of a matrix.
 struct MatrixRows {
   std::vector<int> first{0}, column;
   std::vector<double> value;
 
+  /// Adds an entry to the last row.
   void add(int c, double v) { column.push_back(c), value.push_back(v); }
+  /// Ends the row.
   void end_row() { first.push_back(static_cast<int>(column.size())); }
 };
 
-/// The matrix of the rows of all parts, one after the other.
+/// Returns the matrix with the rows of all parts, one after the other.
 RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows,
                       Eigen::Index columns);
 
-/// A with column number(row, column, value) in place of a column, and without entries where that is
-/// negative. Numbers ascend with the columns.
+/// Returns A with each entry moved to column number(row, column, value); an entry with a negative
+/// number is dropped. Numbers ascend with the columns.
 template <class Number>
 RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& number) {
   const auto rows = static_cast<std::size_t>(A.rows());
@@ -52,7 +54,7 @@ RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& num
   return joined_rows(parts, A.rows(), columns);
 }
 
-/// The entries of A of which keep(row, column, value).
+/// Returns A with only the entries for which keep(row, column, value) is true.
 template <class Keep>
 RowMatrix some_entries(const RowMatrix& A, const Keep& keep) {
   return renumbered(A, A.cols(), [&](Eigen::Index row, int column, double value) {

@@ -10,14 +10,14 @@ namespace plica {
 
 namespace {
 
-constexpr double reach = 1.2;      // of the longest edge
-constexpr double most_weight = 3;  // sum of |weights|
-constexpr std::size_t fewest = 5;  // entries
+constexpr double reach = 1.2;      // radius over the longest edge
+constexpr double most_weight = 3;  // maximum sum of |weights|
+constexpr std::size_t fewest = 5;  // minimum number of entries
 
 double spline(double s) { return s < 1 ? (1 - s) * (1 - s) * (1 + 2 * s) : 0; }
 
-// The weights of `ring`, whose first entry is the vertex itself; empty where they are not to be
-// had.
+// Returns the weights of `ring`, whose first entry is the vertex itself. Returns nothing where the
+// ring is too small or the fit is not good.
 std::vector<double> ring_weights(const TetMesh& mesh, const std::vector<int>& ring) {
   const auto at = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
   if (ring.size() < fewest) return {};

@@ -10,14 +10,14 @@
 
 namespace plica {
 
-/// Values at a mesh's vertices smoothed over their edges, [vertices x vertices]: each vertex takes
-/// a weighted average over itself and its neighbours, by moving least squares of degree one
-/// (Lancaster & Salkauskas 1981), so that linear fields stay as they are. The weight is the spline
-/// (1 - s)^2 (1 + 2 s) of the distance over 1.2 times the vertex's longest edge. Vertices with too
-/// few neighbours, or whose weights would grow beyond 3, keep their value.
+/// Returns the matrix that smooths values at a mesh's vertices, [vertices x vertices]. Each vertex
+/// gets a weighted average over itself and its neighbours, by moving least squares of degree one
+/// (Lancaster & Salkauskas 1981). Linear fields do not change. With s the distance over 1.2 times
+/// the vertex's longest edge, the weight is the spline (1 - s)^2 (1 + 2 s). Vertices with fewer
+/// than four neighbours, or whose |weights| would sum to more than 3, keep their value.
 RowMatrix ring_smoothing(const TetMesh& mesh);
 
-/// A sparse matrix on the device.
+/// Copies a sparse matrix to the device. Rows are filled up with zeros to multiples of 4 entries.
 template <class B, class Value = typename B::Real>
 SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
   std::vector<int> first{0}, column;
@@ -40,19 +40,25 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
           to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
 }
 
+/// Returns the memory of some views [bytes].
 template <class... Views>
 std::size_t bytes_of_views(const Views&... views) {
   return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
 }
 
+/// Returns the memory of a sparse matrix [bytes].
 template <class B, class Value>
 std::size_t bytes_of_rows(const SparseRows<B, Value>& A) {
   return bytes_of_views(A.first, A.column, A.value);
 }
 
-/// P, [fine vertices x coarse vertices]: the fine vertices' places in the coarse mesh, `up`,
-/// smoothed on the fine mesh where asked for. Vertices whose motion is given (`constrained`, one
-/// per vertex) have no part in it; neither have weights below 1e-6.
+/// Returns the transfer P from a coarse mesh to a fine one, [fine vertices x coarse vertices]. It
+/// has the weights of `up`, smoothed on the fine mesh if `smooth`. Rows and columns of vertices
+/// whose motion is given are empty; weights up to 1e-6 are left out.
+/// @param fine_constrained    per fine vertex, nonzero: its motion is given
+/// @param coarse_constrained  per coarse vertex, nonzero: its motion is given
+/// @param up                  embedding of the fine vertices in the coarse mesh
+/// @param smooth              whether ring_smoothing() is applied
 RowMatrix transfer_matrix(const TetMesh& fine, const std::vector<char>& fine_constrained,
                           const TetMesh& coarse, const std::vector<char>& coarse_constrained,
                           const Embedding& up, bool smooth);

@@ -22,29 +22,33 @@ namespace plica {
 
 namespace {
 
-constexpr int trial_steps = 128;            // critical steps
+constexpr int trial_steps = 128;            // length of a trial in critical steps
 constexpr int usual_factor = 8;             // macro step over critical step, tried first
-constexpr int longer_factors[] = {16, 32};  // while those before are good
-constexpr int shorter_factors[] = {4, 2};   // until one is good
-// at most, where contact is to come that the trials do not show
+constexpr int longer_factors[] = {16, 32};  // tried while the shorter ones are good
+constexpr int shorter_factors[] = {4, 2};   // tried until one is good
+// maximum macro step over critical step where contact is expected that the trials do not show
 constexpr int unseen_factor = 4;
-constexpr double reference_step = 0.45;    // of the critical one; central differences, of order 2
-constexpr int timed_steps = 32;            // of level 0 alone
-constexpr double worth = 20;               // a run is at least so many times what timing it takes
-constexpr double looking_part = 0.05;      // of the run: what looking ahead may take
-constexpr double before_touching = 0.125;  // of a trial: where it starts
-constexpr double clearly_less = 0.9;       // of single's run time: what it may be left for
-// set-ups of level 0 alone that one of him takes, about ...
+// step of the reference over the critical step; central differences, of order 2
+constexpr double reference_step = 0.45;
+constexpr int timed_steps = 32;        // steps of level 0 alone that are timed
+constexpr double worth = 20;           // least wall time of a run over that of timing it
+constexpr double looking_part = 0.05;  // largest part of the run that looking ahead takes
+// time from a trial's start to the touch, over the trial's duration
+constexpr double before_touching = 0.125;
+// run time over single's below which another cycle is taken
+constexpr double clearly_less = 0.9;
+// set-up time of him without its dense part, over that of level 0 alone, about
 constexpr double him_set_ups = 5;
-// ... and this per cube of the coarsest level's vertices [s]
+// dense part of him's set-up time, over the cube of the coarsest level's number of vertices [s]
 constexpr double him_dense = 2.3e-8;
-constexpr double past_the_peak = 0.5;  // of the elastic energy: looking ahead ends there
-// steps of level 0 alone, about, before one of him has been timed
+// elastic energy over its maximum so far, below which looking ahead ends
+constexpr double past_the_peak = 0.5;
+// wall time of a step of him over one of level 0 alone, about; used until him has been timed
 constexpr double him_step = 3;
-constexpr long most_looking = 20000;  // steps of looking ahead, where the run has no end
+constexpr long most_looking = 20000;  // maximum number of steps of looking ahead
 
 double reference_forces() { return trial_steps / reference_step; }
-// A run of fewer steps is surely shorter than trials that are worth it
+// Steps of level 0 alone below which a run is certainly too short for trials
 double fewest_steps() { return std::max(worth * timed_steps, reference_forces() / trial_part); }
 
 double seconds_now() {
@@ -66,7 +70,7 @@ IntegrationOptions stepped(IntegrationOptions o, const char* integrator,
   return o;
 }
 
-/// One of its levels alone.
+/// Returns the problem with one of its levels alone.
 Problem only_level(Problem problem, std::size_t level) {
   Body& body = problem.body;
   body.levels = {body.levels[level]};
@@ -132,13 +136,13 @@ class CycleTrials {
                                                "what the others are measured against"});
     alone.set_up_time = set_up_time_, alone.step_time = reference.step_time;
     alone.run_time = run_time_of(alone);
-    // what touches or is deformed takes longer than rest
+    // a body in contact or deformed takes longer to step than the body at rest that was timed
     budget_ = std::max(budget_, trial_part * alone.run_time);
     try_him(reference);
     choose();
   }
 
-  // Also the run's predicted time
+  // Times set-up and steps of level 0 alone, and predicts its run time
   void time_alone() {
     const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone is timed");
     const TrialRun timed =
@@ -152,7 +156,7 @@ class CycleTrials {
     if (him_set_up_time_ > 0) return him_set_up_time_;
     const auto& levels = problem_.body.levels;
     double coarsest = static_cast<double>(levels.back().vertices.size());
-    if (levels.size() == 1) {  // spaces are made of it
+    if (levels.size() == 1) {  // coarse spaces are made of level 0
       const SizeRule rule = has_contact(problem_) ? him_sizes_with_contact : him_sizes;
       coarsest = std::clamp<double>(rule.last * coarsest, rule.fewest, rule.most);
     }
@@ -164,8 +168,8 @@ class CycleTrials {
     return trial.set_up_time + options_.duration / trial.macro_step * trial.step_time;
   }
 
-  // Shortly before the first touch, which decides which step will do; else where the body is
-  // deformed most
+  // Sets the start of the trials shortly before the first touch; else where the body is deformed
+  // most. Contact decides which macro step is accurate enough
   void find_start() {
     touch_ = first_touch(problem_, options_.duration);
     const std::optional<RigidMotion> rigid = rigid_motion(problem_);
@@ -183,8 +187,8 @@ class CycleTrials {
   void look_ahead() {
     const Kokkos::Profiling::ScopedRegion region(
         "plica: cycle auto: the coarsest level looks ahead");
-    // what is deformed most is looked for by level 0 itself: between meshes a state gets kinks,
-    // which him follows badly
+    // The state of largest deformation is computed on level 0 itself. A state that is interpolated
+    // between meshes has kinks, and him follows these badly
     const std::size_t last = touch_.expected() ? problem_.body.levels.size() - 1 : 0;
     Problem coarsest = only_level(problem_, last);
     coarsest.integration = stepped(problem_.integration, SymplecticEuler::name, {});
@@ -218,7 +222,7 @@ class CycleTrials {
         if (!touch_.expected() && elastic < past_the_peak * most) break;
       }
       if (most > 0 && last == 0 && start_.time == 0) start_ = hardest;
-      // of the coarsest mesh alone: what is wrong there is told by whoever uses it
+      // An error of the coarsest level alone is ignored here: a run that uses the level reports it
     } catch (const InputError&) {
     }
   }
@@ -237,7 +241,7 @@ class CycleTrials {
     return {coarse.time, fine(coarse.u), fine(coarse.v)};
   }
 
-  // In steps that hit the quarters
+  // Runs level 0 alone, in steps that end exactly at the trial's quarters
   TrialRun run_reference() {
     const double quarter = choice_.duration / trial_quarters;
     const int steps = static_cast<int>(std::ceil(quarter / (reference_step * critical_)));
@@ -270,7 +274,8 @@ class CycleTrials {
     }
   }
 
-  // Not where it cannot gain what it costs. Steps of him take about the same time at any length
+  // Runs him at a factor of the critical step, unless the trial costs more than it can gain. A step
+  // of him takes about the same wall time at any length. Returns whether its error is allowed
   bool try_factor(int factor, const TrialRun* reference) {
     if (given_up_) return false;
     const CycleTrial& alone = choice_.trials.front();
@@ -330,7 +335,7 @@ class CycleTrials {
                        note_;
       return;
     }
-    // whole steps to the end of the run, so that the one step repeats it
+    // a whole number of steps to the end of the run, so that this macro step alone repeats the run
     const double steps = std::ceil(options_.duration / best->macro_step * (1 - 1e-9));
     const double macro_step = std::isfinite(steps) ? options_.duration / steps : best->macro_step;
     std::string reason =
@@ -348,12 +353,12 @@ class CycleTrials {
   std::function<double()> now_;
   double begun_ = 0, budget_ = 0, steps_ = 0;
   double critical_ = 0, edge_ = 0;
-  double set_up_time_ = 0, step_time_ = 0;          // of level 0 alone
-  double him_set_up_time_ = 0, him_step_time_ = 0;  // 0: not timed
-  double trials_time_ = 0;                          // of the first ones, about
+  double set_up_time_ = 0, step_time_ = 0;          // level 0 alone [s]
+  double him_set_up_time_ = 0, him_step_time_ = 0;  // [s]; 0: not timed
+  double trials_time_ = 0;                          // estimate for the first trials [s]
   FirstTouch touch_;
   TrialStart start_;
-  std::vector<Point> rigid_;  // what the body is displaced by in any case, at the quarters' ends
+  std::vector<Point> rigid_;  // rigid displacement of the body at each quarter's end [m]
   bool given_up_ = false;
   std::string note_;
   CycleChoice choice_;

@@ -12,10 +12,10 @@ namespace plica {
 
 namespace {
 
-// macro steps between two looks at the size, which may grow by a large factor in each
+// macro steps between two normalisations of the state, whose size may grow much in each step
 constexpr int burst = 20;
 
-/// A random state under way, brought back to size 1 from time to time.
+/// Long run from a random state, which is scaled back to size 1 after every burst.
 template <class B>
 class LongRun {
  public:
@@ -28,7 +28,8 @@ class LongRun {
   long macro_steps() const { return static_cast<long>(log_size_.size() - 1) * burst; }
   double last_growth() const { return last_; }
 
-  /// False where it ends before, at zero or beyond all numbers: see last_growth().
+  /// Runs until this number of macro steps. Returns false where the state becomes zero or overflows
+  /// before: last_growth() then returns 0 or infinity.
   bool until(long macro_steps) {
     while (this->macro_steps() < macro_steps) {
       x_ = map_.apply(x_, burst);
@@ -40,7 +41,7 @@ class LongRun {
     return true;
   }
 
-  /// Of log |x| per macro step, over the last 1/n of them.
+  /// Returns the mean growth of log |x| per macro step, over the last 1/n of the run.
   double mean_growth(std::size_t n) const {
     const std::size_t bursts = log_size_.size() - 1, last = std::max<std::size_t>(1, bursts / n);
     if (bursts == 0) return 0;
@@ -55,7 +56,7 @@ class LongRun {
  private:
   const CycleMap<B>& map_;
   Eigen::VectorXd x_;
-  std::vector<double> log_size_ = {0};  // after each burst
+  std::vector<double> log_size_ = {0};  // log |x| after each burst
   double last_ = 1;
 };
 
@@ -147,13 +148,13 @@ CycleGrowth of_all_modes(const CycleMap<B>& map) {
   found.radius = spectral_radius(map.matrix()),
   found.per_second = std::log(found.radius) / found.macro_step;
   found.uncertainty = 1e-6,
-  // pairs that meet at 1, as of free bodies, are found to the root of rounding
+  // eigenvalue pairs that coincide at 1 (free bodies) are only found to the root of rounding
       found.converged = true;
   return found;
 }
 
-// What the linearised cycle depends on: its mappings do not switch, and rsv and rsv_sv are rv
-// there; see CycleMap
+// Returns the options on which the linearised cycle depends. Its mappings do not switch, and rsv
+// and rsv_sv equal rv: see CycleMap
 IntegrationOptions map_of(const StudyCase& one, double macro_step) {
   IntegrationOptions o = one.integration;
   if (o.cycle == "rsv" || o.cycle == "rsv_sv") o.cycle = "rv";

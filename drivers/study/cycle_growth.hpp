@@ -8,13 +8,13 @@
 
 namespace plica {
 
-/// One macro step of a problem's cycle as a linear map of level 0's free vertices: x = (u, t v)
-/// [m], linearised about rest without contact, loads and gravity, with the problem's shares,
-/// sub-steps and macro step t, also above a limit.
+/// One macro step of a problem's cycle as a linear map. It maps x = (u, t v) [m] of level 0's free
+/// vertices. The map is linearised about rest without contact, loads and gravity. It has the
+/// problem's shares, sub-steps and macro step t, also where t is above a stability limit.
 ///
-/// Every material is `linear` there, mappings never switch, and implicit levels solve to 1e-12.
-/// What cycles carry besides level 0's state follows from it: a variation restricted in every cycle
-/// sums up to the state restricted, so that `rv`, `rsv` and `rsv_sv` are one map.
+/// In the map every material is `linear`, mappings never switch, and implicit levels solve to
+/// 1e-12. State on the other levels follows from level 0's state. A variation that is restricted in
+/// every cycle sums up to the restricted state, so that `rv`, `rsv` and `rsv_sv` are one map.
 template <class B>
 class CycleMap {
  public:
@@ -24,10 +24,10 @@ class CycleMap {
   double macro_step() const { return built_.macro_step; }  ///< t [s]
   Eigen::Index size() const { return static_cast<Eigen::Index>(6 * free_.size()); }
 
-  /// x after so many macro steps.
+  /// Returns x after this number of macro steps.
   Eigen::VectorXd apply(const Eigen::VectorXd& x, int macro_steps = 1) const;
 
-  /// All of it, a column per unit vector: for small bodies.
+  /// Returns the map as a dense matrix, a column per unit vector: for small bodies.
   Eigen::MatrixXd matrix() const;
 
  private:
@@ -35,46 +35,48 @@ class CycleMap {
   std::vector<std::size_t> free_;
 };
 
-/// How the amplitude of small motions grows by a cycle.
+/// Growth of the amplitude of small motions by a cycle.
 struct CycleGrowth {
   double macro_step = 0;  ///< [s]
   /// spectral radius of the map: the factor per macro step in the long run
   double radius = 0;
-  double per_second = 0;   ///< log(radius) per simulated time [1/s]; > 0: grows
-  double uncertainty = 0;  ///< of the radius
-  /// to an eigenvalue; else it is the mean factor of many steps, as where none dominates
+  double per_second = 0;   ///< log(radius) over the macro step [1/s]; > 0: grows
+  double uncertainty = 0;  ///< uncertainty of the radius
+  /// true where the radius is an eigenvalue's modulus. Else it is the mean growth factor of many
+  /// steps, for example where no eigenvalue dominates
   bool converged = false;
-  long macro_steps = 0;  ///< taken to find it
+  long macro_steps = 0;  ///< macro steps taken to find the radius
 };
 
+/// Effort and accuracy of cycle_growth().
 struct CycleGrowthOptions {
-  long macro_steps = 20000;  ///< at most about so many
-  double tolerance = 1e-8;   ///< of the eigenpair: |A x - lambda x| / |lambda x|
-  int dimension = 40;        ///< of the Krylov space
+  long macro_steps = 20000;  ///< maximum number of macro steps, about
+  double tolerance = 1e-8;   ///< largest residual |A x - lambda x| / |lambda x| of the eigenpair
+  int dimension = 40;        ///< dimension of the Krylov space
 };
 
-/// Lets a random state run, so that what grows most remains, then looks for the largest eigenvalue,
-/// which may be a complex pair, in a Krylov space from there (Arnoldi 1951; Golub & Van
-/// Loan, 10.5). Longer runs until it is found.
+/// Finds the spectral radius of a cycle's map. A random state is run, so that the fastest growing
+/// part remains. The largest eigenvalue, which may be a complex pair, is then sought in a Krylov
+/// space from that state (Arnoldi 1951; Golub & Van Loan, 10.5). Runs get longer until it is found.
 template <class B>
 CycleGrowth cycle_growth(const CycleMap<B>& map, const CycleGrowthOptions& options = {});
 
-/// How small motions about rest grow by a study's cycles, in double. A map that several runs share,
-/// whatever their precision, threads or mappings of the same linear part, is examined once, for
+/// Growth of small motions about rest by a study's cycles, in double. Runs that differ only in
+/// precision, threads or mappings with the same linear part share one map. It is examined once, for
 /// some hundred macro steps.
 class GrowthOfCycles {
  public:
   explicit GrowthOfCycles(const Problem& problem) : problem_(problem) {}
 
-  /// Of that case at this macro step [s]; none where its set-up is refused.
-  /// @param told_from  a radius that it is to be told from: close to 1, of a small body, by all
-  /// eigenvalues; else, where its uncertainty is
-  ///                   too large for that, by longer runs, up to 16 times
+  /// Returns the growth of a case at this macro step [s]; none where its set-up is refused.
+  /// @param told_from  a radius from which the result must be distinguished. Where it is close to 1
+  ///                   and the body is small, all eigenvalues are computed. Else runs get up to 16
+  ///                   times longer while the uncertainty is too large.
   std::optional<CycleGrowth> of(const StudyCase& one, double macro_step,
                                 std::optional<double> told_from = {});
 
-  /// Evaluations of tetrahedra that of() is to take, at most, in a study so long [s]; 0 where the
-  /// map is known.
+  /// Returns how many evaluations of tetrahedra of() will take at most; 0 where the map is known.
+  /// @param duration  simulated time of the study's runs [s]
   double predicted_evaluations(const StudyCase& one, double macro_step, double duration) const;
 
  private:

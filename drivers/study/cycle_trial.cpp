@@ -11,7 +11,7 @@ namespace plica {
 
 namespace {
 
-constexpr double no_motion = 1e-12;  // of the body's size
+constexpr double no_motion = 1e-12;  // motion that is rounding, over the body's size
 
 double median_of(std::vector<double> times) {
   if (times.empty()) return 0;
@@ -20,7 +20,7 @@ double median_of(std::vector<double> times) {
   return *middle;
 }
 
-/// Whether a trial gains energy, where that can be told.
+/// Energy gain of a trial, where the work of all forces is known.
 template <class B>
 class GainInTrial {
  public:
@@ -65,7 +65,7 @@ TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int s
     const double begun = clock.now();
     Simulation<B> simulation(problem, exec);
     run.set_up_time = clock.now() - begun;
-    simulation.share_cores();  // as the run will
+    simulation.share_cores();  // since the predicted run does so
     if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
     GainInTrial<B> gain(simulation, problem);
     for (int n = 1; n <= steps; ++n) {

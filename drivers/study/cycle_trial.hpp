@@ -10,42 +10,47 @@
 // Short runs of cycle auto, timed.
 namespace plica {
 
-inline constexpr int trial_quarters = 4;  ///< of a trial, at whose ends states are compared
+/// Number of equal parts of a trial; states are compared at the end of each
+inline constexpr int trial_quarters = 4;
 
-/// Where a trial starts: from the scene's own start, or from a state of level 0.
+/// Start of a trial: the scene's own start, or a state of level 0.
 struct TrialStart {
   double time = 0;          ///< [s]; 0: the scene's own start
-  std::vector<Point> u, v;  ///< [m], [m/s]
+  std::vector<Point> u, v;  ///< displacement and velocity of each vertex [m], [m/s]
 };
 
+/// Clock of a trial and its wall-time limit.
 struct TrialClock {
-  std::function<double()> now;                                ///< [s]
-  double deadline = std::numeric_limits<double>::infinity();  ///< the trial ends there
+  std::function<double()> now;  ///< wall time [s]
+  /// wall time at which the trial ends [s]
+  double deadline = std::numeric_limits<double>::infinity();
 };
 
-/// What became of one.
+/// Result of one trial's run.
 struct TrialRun {
-  /// [quarter][vertex], displacements from where it started [m]
+  /// `[quarter][vertex] m`: displacements from the trial's start, at the end of each quarter
   std::vector<std::vector<Point>> u;
-  std::string reason;      ///< why there is none, or why it is not to be used
-  double set_up_time = 0;  ///< [s]
-  double step_time = 0;    ///< the median [s]
-  bool touched = false;    ///< an obstacle or a body pushed it
+  std::string reason;      ///< why there is no result, or it is not to be used; else empty
+  double set_up_time = 0;  ///< wall time [s]
+  double step_time = 0;    ///< median wall time of a macro step [s]
+  bool touched = false;    ///< true where an obstacle or a body pushed it
 };
 
-/// Whether anything has pushed the body in the last macro step.
+/// Returns whether anything has pushed the body in the last macro step.
 template <class B>
 bool is_pushed(const Simulation<B>& simulation);
 
-/// So many macro steps, a multiple of trial_quarters, of the problem with that integration.
+/// Runs the problem for `steps` macro steps with the given integration, and times it.
+/// @param steps  a multiple of trial_quarters
 template <class B>
 TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps,
                    const TrialStart& start, const TrialClock& clock, const typename B::Exec& exec);
 
-/// |u - from| / |from - rigid|, over all quarters: `rigid` is what every vertex is displaced by at each quarter's end in any case [m]
+/// Returns the relative error |u - from| / |from - rigid|, L2 over all quarters and vertices.
+/// @param rigid  displacement of the whole body as a rigid one, at each quarter's end [m]
 double trial_error(const TrialRun& run, const TrialRun& from, const std::vector<Point>& rigid);
 
-/// Whether it moves by more than rounding in any other way.
+/// Returns whether any vertex moves away from the rigid displacement by more than rounding.
 bool anything_moves(const TrialRun& run, const std::vector<Point>& rigid, const TetMesh& mesh);
 
 }  // namespace plica

@@ -16,7 +16,7 @@ void require_sound(Simulation<HostBackend>& simulation) {
 
 namespace {
 
-/// Of each vertex those in its elements, itself among them.
+/// Returns for each vertex the vertices of its elements, including itself.
 std::vector<std::vector<int>> neighbours_in(const TetMesh& mesh) {
   std::vector<std::vector<int>> lists(mesh.vertices.size());
   for (const auto& tet : mesh.tets)
@@ -30,8 +30,8 @@ std::vector<std::vector<int>> neighbours_in(const TetMesh& mesh) {
   return lists;
 }
 
-/// Vertices of one colour have no neighbour in common, so that one product tells the columns of all
-/// of them apart (Curtis, Powell & Reid 1974).
+/// Colours the vertices so that two of one colour have no neighbour in common. One product with the
+/// matrix then gives the columns of all vertices of a colour (Curtis, Powell & Reid 1974).
 std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
   std::vector<int> colour_of(neighbours.size(), -1);
   std::vector<std::vector<int>> colours;
@@ -49,7 +49,7 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
   return colours;
 }
 
-/// Laws of tissue with the nu of 1/3 at most.
+/// Caps the bulk moduli of a law of tissue so that nu is 1/3 at most.
 void cap_bulk_modulus(Body& body) {
   const MaterialInfo& info = *find_material(body.material.model);
   if (!info.of_tissue) return;
@@ -61,12 +61,13 @@ void cap_bulk_modulus(Body& body) {
   cap(body.material.parameters, {});
 }
 
-/// With nodal elements, the same body of linear ones that do not lock.
+/// Returns the body with linear elements and nu of 1/3 at most, so that they do not lock. Null
+/// where the elements of `nodal` are linear already.
 std::unique_ptr<LevelProbe<HostBackend>> linear_beside(const Problem& nodal) {
   if (element_of(nodal.body, 0) == Element::linear) return nullptr;
   Problem p = nodal;
   p.body.element = {"linear"};
-  const auto cap = [](double& young, double& poisson) {  // mu stays
+  const auto cap = [](double& young, double& poisson) {  // at constant mu
     const double mu = young / (2 * (1 + poisson));
     poisson = std::min(poisson, 1.0 / 3), young = 2 * mu * (1 + poisson);
   };
@@ -100,7 +101,7 @@ void SparseStiffness::linearise(const std::vector<Point>& u) {
   LevelProbe<HostBackend>& probe = linear_ ? *linear_ : probe_;
   at_ = u;
   if (linear_ && matrix_.rows() > 0)
-    return;  // linear elements may be inverted where nodal ones are not: those at rest will do
+    return;  // K at rest is kept: linear elements may be inverted where nodal ones are not
   std::vector<Eigen::Index> row_of(3 * mass_.size(), -1);
   const auto n = static_cast<Eigen::Index>(free_.size());
   for (Eigen::Index r = 0; r < n; ++r)
@@ -202,7 +203,7 @@ std::vector<double> SparseStiffness::frequencies(int count, double shift) const 
 namespace {
 
 constexpr int most_iterations = 40, most_halvings = 12;
-// of the largest residual: where it can no longer fall, below this, it is at rest
+// residual over the largest one below which the body is at rest, where it does not fall further
 constexpr double round_off = 1e-8;
 
 class Newton {
@@ -234,7 +235,7 @@ class Newton {
   LevelProbe<HostBackend>& probe_;
   const StaticOptions& options_;
   SparseStiffness stiffness_;
-  double largest_ = 0, first_ = 0;  ///< residuals: of all, of this load step
+  double largest_ = 0, first_ = 0;  ///< largest residual of all, first residual of this load step
 
   std::vector<Point> forces(const std::vector<Point>& u, double time) {
     auto f = probe_.force(u, probe_.zero(), time);
@@ -245,9 +246,9 @@ class Newton {
     return stiffness_.part(forces(u, time));
   }
 
-  // The first of u + change, u + change/2 ... with a smaller residual; near incompressibility a
-  // step that converges first raises that of nodal elements, in which smoothed volumes are stiff, a
-  // thousandfold
+  // Returns the first of u + change, u + change/2 ... with a smaller residual. With nodal elements
+  // the residual may be a thousand times the first one. Near incompressibility their smoothed
+  // volumes are stiff, and a step that converges first raises the residual that much
   std::optional<std::vector<Point>> search(const std::vector<Point>& u,
                                            const std::vector<Point>& change, double time,
                                            double& size) {

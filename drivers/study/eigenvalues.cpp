@@ -13,7 +13,7 @@ namespace {
 constexpr double close_enough = 1e-9;
 constexpr Eigen::Index most_restarts = 300, least_space = 20;
 
-/// A product as Spectra asks for it.
+/// Product in the form that Spectra expects.
 class Operation {
  public:
   using Scalar = double;
@@ -29,7 +29,7 @@ class Operation {
   Eigen::Index size_;
 };
 
-/// The `count` largest, descending; count < size.
+/// Returns the `count` largest eigenvalues, descending; count < size.
 Eigen::VectorXd largest_by_lanczos(const Product& product, Eigen::Index size, Eigen::Index count) {
   Operation operation(product, size);
   const Eigen::Index space = std::min(size, std::max(least_space, 3 * count));

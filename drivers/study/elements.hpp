@@ -7,28 +7,29 @@
 #include <utility>
 #include <vector>
 
-/// The elements that a study compares.
+/// Elements that a study compares.
 namespace plica {
 
-/// All there are, the one whose limit is the better reference last.
+/// Returns all kinds of elements; last the kind whose limit is the better reference.
 inline std::vector<std::string> element_families() {
   return {name_of(Element::linear), name_of(Element::nodal)};
 }
 
-/// InputError for a name that is not one of them, with the nearest.
+/// Throws InputError for a name that is not in element_families(); the message has the nearest
+/// name.
 inline void check_element(const std::string& element) {
   const std::vector<std::string> known = element_families();
   if (std::ranges::find(known, element) == known.end())
     throw InputError("study.elements: " + unknown_name("element", element, known));
 }
 
-/// The problem with these elements on all levels; empty: its own.
+/// Returns the problem with these elements on all levels; empty: with its own.
 inline Problem with_element(Problem problem, const std::string& element) {
   if (!element.empty()) problem.body.element = {element};
   return problem;
 }
 
-/// The body from this level on, and of the coarser ones as many as make `levels` in all.
+/// Keeps at most `levels` levels of the body, from level `first` on; removes the others.
 inline void keep_levels(Body& body, std::size_t first, std::size_t levels) {
   const auto keep = [&](auto& each) {
     each.erase(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(first));

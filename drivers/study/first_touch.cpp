@@ -15,8 +15,9 @@ namespace plica {
 
 namespace {
 
-constexpr double touching = 1e-3;   // of a mean edge
-constexpr int most_advances = 200;  // of one obstacle; then its time so far, which is sure
+constexpr double touching = 1e-3;  // gap that counts as a touch, over the mean edge
+// maximum number of advances of time per obstacle; then the time so far, which is a safe bound
+constexpr int most_advances = 200;
 
 bool starts_turning(const InitialOptions& initial) {
   return initial.angular_velocity.norm() > 0 || initial.twist || !initial.parts.empty();
@@ -28,7 +29,7 @@ bool something_drives(const Problem& p) {
                              [](const PrescribedMotion& given) { return moves(given.motion); });
 }
 
-/// Where an obstacle's motion and turn have it.
+/// Pose of an obstacle over time, by its motion and turn.
 class Course {
  public:
   explicit Course(const ObstacleOptions& o) : path_(make_path(o.motion, knots_)) {
@@ -49,8 +50,8 @@ class Course {
   std::optional<Turning> turning_;
 };
 
-/// The distance of a point from a shape, or less. Of a surface from the box around it: its
-/// distances are sampled at set-up.
+/// Distance of a point from a shape, or a lower bound of it [m]. For a surface it is the distance
+/// from its bounding box, since a surface's distances are only sampled at set-up.
 using Distance = std::function<double(const Vec3<double>&)>;
 
 Distance distance_from(const ShapeOptions& shape, bool& exact) {
@@ -74,9 +75,9 @@ Distance distance_from(const ShapeOptions& shape, bool& exact) {
   return distance;
 }
 
-/// What a body does until it touches something, as far as that is known.
+/// Motion of a body until it touches something, as far as it is known.
 struct Approach {
-  std::vector<Point> places;  // of its surface at t = 0
+  std::vector<Point> places;  // points of the surface at t = 0 [m]
   // none: its points may go anywhere within speed t + |gravity| t^2 / 2
   std::optional<RigidMotion> motion;
   double speed = 0, gravity = 0;
@@ -101,7 +102,7 @@ double fastest_of(const ObstacleOptions& o, const std::vector<Point>& places) {
          fastest(angle_of(*o.turn)) * std::min(2 * reach, reach_from(about, o.turn->axis, o.shape));
 }
 
-// The time in which v t + a t^2 / 2 comes to a distance
+// Returns the time in which v t + a t^2 / 2 reaches a distance
 double time_to_go(double distance, double v, double a) {
   if (!(a > 0)) return v > 0 ? distance / v : std::numeric_limits<double>::infinity();
   return 2 * distance / (v + std::sqrt(v * v + 2 * a * distance));

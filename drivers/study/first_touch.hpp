@@ -7,35 +7,37 @@
 
 namespace plica {
 
-/// How a body moves as a whole before anything touches it: a free one in uniform gravity, damped by
-/// mass at most, or one that rests. Shapes do not change, so that this is exact.
+/// Rigid motion of a body before anything touches it. The body is free in uniform gravity, damped
+/// by mass at most, or it rests. Shapes do not change, so that this is exact.
 struct RigidMotion {
   Point velocity = Point::Zero();  ///< at t = 0 [m/s]
   Point gravity = Point::Zero();   ///< [m/s^2]
-  double damping = 0;              ///< by mass [1/s]
+  double damping = 0;              ///< mass damping [1/s]
 
-  Point displacement_at(double time) const;  ///< from where it starts [m]
+  Point displacement_at(double time) const;  ///< from its start [m]
   Point velocity_at(double time) const;      ///< [m/s]
 };
 
-/// None where the body deforms or turns by itself, or may.
+/// Returns the rigid motion of the body; none where it deforms or turns by itself, or may.
 std::optional<RigidMotion> rigid_motion(const Problem& problem);
 
-/// When a body first touches something.
+/// First touch of a body.
 struct FirstTouch {
-  /// not before this [s]; infinity: not until the end
+  /// time before which nothing is touched [s]; infinity: nothing until the end
   double time = std::numeric_limits<double>::infinity();
-  /// then indeed: the body moves rigidly until then, and what it touches as given
+  /// true where the touch is exactly at `time`. Until then the body moves rigidly, and the obstacle
+  /// by its given motion
   bool exact = false;
-  std::string what;  ///< the obstacle's name, "a body" or "itself"
+  std::string what;  ///< name of the obstacle, "a body" or "itself"
   bool expected() const { return time < std::numeric_limits<double>::infinity(); }
 };
 
-/// The earliest time up to `until` [s] at which the distance of a surface point from an obstacle is
-/// no more than what both can have moved: for a body that moves rigidly what they have moved, else
-/// |v| t + |g| t^2 / 2. Goes on from time to time by what is sure (conservative advancement; B.
-/// Mirtich, PhD thesis, Berkeley 1996). Bodies that touch each other or themselves, and those that
-/// loads or given motions move, may touch at once. Nothing is stepped.
+/// Returns the earliest time up to `until` [s] at which the body may touch an obstacle. There the
+/// distance of a surface point is no more than what point and obstacle can have moved. A body that
+/// moves rigidly has a known motion; else a point moves by |v| t + |g| t^2 / 2 at most. Time
+/// advances by steps in which no touch is possible (conservative advancement; B. Mirtich, PhD
+/// thesis, Berkeley 1996). Bodies in contact with each other or themselves, and bodies that loads
+/// or given motions move, may touch at t = 0. Nothing is stepped.
 FirstTouch first_touch(const Problem& problem, double until);
 
 }  // namespace plica

@@ -9,13 +9,13 @@
 
 namespace plica {
 
-/// A host field on the device.
+/// Copies a host field to the device.
 template <class B>
 Vectors<B> device_field(const std::vector<Point>& field) {
   return to_device<Vectors<B>>("field", rows<typename B::Real>(field));
 }
 
-/// The levels of a problem with their forces, one product at a time and without any integrator.
+/// Levels of a problem, whose forces and matrix products are computed without an integrator.
 template <class B>
 class LevelProbe {
  public:
@@ -36,7 +36,7 @@ class LevelProbe {
     return force(u, std::vector<Point>(u.size(), Point::Zero()));
   }
 
-  /// K(u) p, elastic
+  /// Returns K(u) p, the elastic stiffness alone.
   std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p,
                                int i = 0) {
     const Level<B>& level = at(i);
@@ -53,7 +53,7 @@ class LevelProbe {
     return q;
   }
 
-  /// D(u) p: minus what a velocity p adds to the force
+  /// Returns D(u) p: minus the force that a velocity p adds.
   std::vector<Point> damping(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
     std::vector<Point> q = force(u, zero(i), 0, i);
     const std::vector<Point> f = force(u, p, 0, i);
@@ -61,8 +61,8 @@ class LevelProbe {
     return q;
   }
 
-  /// K(u) p with the pressures that follow the body, at the time of the last evaluation, which was
-  /// at u
+  /// Returns K(u) p with the pressures that follow the body, at the time of the last evaluation.
+  /// That evaluation must have been at u.
   std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
     std::vector<Point> q = stiffness(u, p);
     const Vectors<B> added = device_field<B>(zero());
@@ -72,7 +72,7 @@ class LevelProbe {
     return q;
   }
 
-  /// [J], a sum of the vertices' shares
+  /// Returns the elastic energy of level 0 [J], a sum of the vertices' shares.
   double elastic_energy(const std::vector<Point>& u) {
     const Level<B>& level = at(0);
     at(0).elasticity().energy(built.hierarchy->exec(), level, device_field<B>(u));
@@ -85,7 +85,7 @@ class LevelProbe {
   std::vector<double> mass(int i = 0) { return values(at(i).model.mass); }
   std::vector<double> inverse_mass(int i = 0) { return values(at(i).model.inverse_mass); }
 
-  /// The free vertices' degrees of freedom, 3 a + k.
+  /// Returns the degrees of freedom of the free vertices, 3 a + k.
   std::vector<int> free(int i = 0) {
     std::vector<int> list;
     const auto inverse = inverse_mass(i);
@@ -94,17 +94,17 @@ class LevelProbe {
     return list;
   }
 
-  /// K(u) on all degrees of freedom, a column for each.
+  /// Returns K(u) as a dense matrix over all degrees of freedom.
   Eigen::MatrixXd stiffness_matrix(const std::vector<Point>& u, int i = 0) {
     return matrix_of(u.size(), [&](const std::vector<Point>& p) { return stiffness(u, p, i); });
   }
-  /// D(u) likewise
+  /// Returns D(u) as a dense matrix over all degrees of freedom.
   Eigen::MatrixXd damping_matrix(const std::vector<Point>& u, int i = 0) {
     return matrix_of(u.size(), [&](const std::vector<Point>& p) { return damping(u, p, i); });
   }
 
-  /// M^-1/2 A M^-1/2 over the free degrees of freedom: its eigenvalues are the squares of the
-  /// frequencies [1/s^2].
+  /// Returns M^-1/2 A M^-1/2 over the free degrees of freedom. Its eigenvalues are the squares of
+  /// the angular frequencies [1/s^2].
   Eigen::MatrixXd scaled_by_mass(const Eigen::MatrixXd& A, int i = 0) {
     const auto list = free(i);
     const auto m = mass(i);

@@ -7,7 +7,7 @@ namespace plica {
 
 namespace {
 
-constexpr double least_order = 0.8, most_order = 3;  // that are believed
+constexpr double least_order = 0.8, most_order = 3;  // range of observed orders that are believed
 
 Trajectory picked(const Trajectory& from, const std::vector<int>& vertices) {
   Trajectory result{from.times, {}, {}};

@@ -7,42 +7,46 @@
 
 namespace plica {
 
-/// Where motions on finer and finer meshes lead.
+/// Limit of the motions on finer and finer meshes.
 struct Limit {
   Trajectory trajectory;
-  std::optional<double> order;  ///< observed, of displacement; none: there were two meshes
-  /// that the limit is extrapolated with: the observed one, in [1, 2]
+  std::optional<double> order;  ///< observed, of displacement; none: only two meshes
+  /// order used to extrapolate: the observed one, clamped to [1, 2]
   double used_order = 2;
   double correction = 0;  ///< from the finest mesh to the limit, relative
-  double own_error = 0;   ///< its uncertainty, relative: see richardson_limit()
-  double own_error_velocity = 0;
+  double own_error = 0;   ///< uncertainty of the displacement, relative: see richardson_limit()
+  double own_error_velocity = 0;  ///< uncertainty of the velocity, relative
 };
 
-/// fine + (fine - coarse) / (2^order - 1)
+/// Returns fine + (fine - coarse) / (2^order - 1).
 Trajectory extrapolated(const Trajectory& fine, const Trajectory& coarse, double order);
 
-/// Richardson's limit (L. F. Richardson, Phil. Trans. R. Soc. A 210, 1911) of u_h = u + C h^p, from
-/// meshes with edges h, 2h and where there is one 4h. With three, p = log2 |u_4h - u_2h| / |u_2h -
-/// u_h|. What one power of h does not explain shrinks at least as fast as that power: the limit's
-/// error is its distance from the limit of the two coarser meshes, over 2^p - 1. With two, p is
-/// `assumed` and the error is the whole correction, as it is where p is observed outside [0.8, 3]:
-/// then errors do not shrink like that.
+/// Returns Richardson's limit of u_h = u + C h^p, from meshes with edges h, 2h and optionally 4h
+/// (L. F. Richardson, Phil. Trans. R. Soc. A 210, 1911).
 ///
-/// @param fine, coarse  at the same vertices and times
-/// @param coarsest      null: there is none; else at the vertices `common` of the others
+/// With three meshes, p = log2 |u_4h - u_2h| / |u_2h - u_h|. The part of the error that is not of
+/// this power of h shrinks at least as fast as the power. The limit's error is therefore its
+/// distance from the limit of the two coarser meshes, over 2^p - 1.
+///
+/// With two meshes, p is `assumed` and the error is the whole correction. The error is also the
+/// whole correction where the observed p is outside [0.8, 3], since errors then do not follow a
+/// power law.
+///
+/// @param fine, coarse  motions at the same vertices and times
+/// @param coarsest      motion at the vertices `common` of the others; null: there is none
 Limit richardson_limit(const Trajectory& fine, const Trajectory& coarse, const Trajectory* coarsest,
                        const std::vector<int>& common, double assumed = 2);
 
-/// One mesh of a family, run by itself.
+/// One mesh of a family, and the run of level 0 on it alone.
 struct TruthMesh {
   long tets = 0;
   double macro_step = 0;  ///< [s]
-  double wall_time = 0;   ///< of its steps [s]
-  double error = 0;       ///< displacement, against the truth
+  double wall_time = 0;   ///< wall time of the steps [s]
+  double error = 0;       ///< displacement against the truth, relative
 };
 
-/// Meshes of one kind, each with edges half as long as those of the one before, and what their
-/// limit is good for.
+/// Meshes of one kind and the accuracy of their limit. Each mesh has edges half as long as the mesh
+/// before.
 struct TruthFamily {
   std::string name;               ///< "linear", "linear, jittered"
   std::vector<TruthMesh> meshes;  ///< coarsest first
@@ -50,27 +54,26 @@ struct TruthFamily {
   double used_order = 2, correction = 0, own_error = 0;
 };
 
-/// What a body really does, as well as it is known: the limit of one family, and how far that of
-/// another is from it.
+/// Accuracy of the best known motion of a body, which is the limit of one family of meshes. The
+/// limit of another family checks it.
 struct Truth {
   TruthFamily family, check;
-  double difference = 0;  ///< between their limits, relative
-  double time_error = 0;  ///< of the finest mesh by its time step, relative
-  /// How uncertain it is: the limit's own error, or what the other family is off beyond its own;
-  /// and the error in time.
+  double difference = 0;  ///< between the limits of the two families, relative
+  double time_error = 0;  ///< error of the finest mesh by its time step, relative
+  /// Returns the relative uncertainty, the sum of those in space and in time. In space it is the
+  /// limit's own error, or if larger, the difference less the other family's own error.
   double error() const;
-  /// The error in space is observed to shrink as it has to, so that the numbers above mean
-  /// something.
+  /// Returns whether the observed order in space is in [0.8, 3]; else the errors mean nothing.
   bool converges() const { return family.order && *family.order >= 0.8 && *family.order <= 3; }
 };
 
-/// One level's mesh with one kind of elements, converged in time: what separates a row's error in
-/// time from that in space.
+/// One level's mesh with one kind of elements, converged in time. It separates a row's error in
+/// time from its error in space.
 struct MeshReference {
   std::string element;
   int level = 0;
   double own_error = 0;    ///< in time, relative
-  double error_space = 0;  ///< displacement, against the truth
+  double error_space = 0;  ///< displacement against the truth, relative
   Trajectory trajectory;   ///< at level 0's vertices
 };
 

@@ -6,7 +6,7 @@
 #include <plica/meshes/generators.hpp>
 #include <random>
 
-// The bodies of the stability matrix, and what varies.
+// Bodies of the stability matrix, and the properties that vary.
 namespace plica {
 
 namespace {
@@ -19,7 +19,7 @@ double length_of(const MatrixBody& body) {
   return (box.max - box.min).maxCoeff();
 }
 
-/// Starts with level 0's vertices where to(rest) puts them.
+/// Sets the start: level 0's vertices are at to(rest), and no load acts.
 template <class To>
 void start_at(MatrixBody& body, MatrixBody::Start start, const To& to) {
   body.displacement.clear();
@@ -109,7 +109,7 @@ void set_impact(MatrixBody& body, double speed) {
   b.initial.position = Point(0.2, 0.05, 0.051);
   body.problem.contact.obstacles = {{PlaneOptions{}, 0.3, {}}};
   body.load_ratio = 0;
-  // about the strain
+  // impact speed over wave speed, about equal to the strain
   body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);
 }
 

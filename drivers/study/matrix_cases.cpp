@@ -15,12 +15,12 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Which methods a line is run with.
+/// Methods with which a line is run.
 enum class Of { all, implicit_alone, him, explicit_alone };
 
 /// A line of the matrix: one thing that varies.
 struct Line {
-  const char* format;  // of the value
+  const char* format;  // name of a case, %g: its value
   Values values;       // the most extreme last
   void (*set)(MatrixBody&, double);
   Of of = Of::all;
@@ -49,17 +49,16 @@ const Line lines[] = {
     {"levels %g lengths apart", {0.5, 0.9, 0.99}, set_overlap},
 };
 
-/// How a method is run here: so many macro steps, of so many critical steps where that is not its
-/// own choice.
+/// A method and the number and length of its macro steps.
 struct Method {
-  std::string name;  // as of a study
+  std::string name;  // name of a method, see StudyCase::method
   long macro_steps = 400;
-  double step = 0;  // times the finest critical step; 0: auto
+  double step = 0;  // macro step over the finest critical step; 0: auto
   enum class Kind { stepped, damped, half_damped, conserving, him, shared } kind = Kind::stepped;
 };
 
-// Implicit integrators by what becomes of fast motion: damped in every step, damped but for slow
-// motion, or kept.
+// Returns an implicit integrator's kind. It says whether the integrator damps all motion in every
+// step, only fast motion, or none.
 Method::Kind kind_of(const std::string& implicit_integrator) {
   if (implicit_integrator == "implicit_euler" || implicit_integrator == "v_cycle_euler")
     return Method::Kind::damped;
@@ -73,7 +72,8 @@ void each_integrator(const Visit& visit) {
     Integrators::visit(name, [&](auto member) { visit(name, member); });
 }
 
-/// Explicit ones at 0.9 of their limit, where they have one; implicit ones at ten times it; cycles.
+/// Returns the methods of a line. Explicit integrators that have a limit run at 0.9 of it, implicit
+/// ones at ten critical steps; cycles are added.
 std::vector<Method> methods(MatrixSize size, Of of, bool several_levels) {
   std::vector<Method> list;
   const bool small = size == MatrixSize::small;
@@ -102,18 +102,18 @@ Expected completes() { return {.complete = true}; }
 Expected stops(const std::string& kind = {}) { return {.stop = true, .kind = kind}; }
 Expected either(const std::string& why) { return {.complete = true, .stop = true, .why = why}; }
 
-// Strains, and speeds of impact over that of waves, by which a body goes
+// Strains, and speeds of impact over the wave speed, that separate the rules below
 constexpr double moderate_strain = 1, large_strain = 50, gentle_impact = 0.05,
                  moderate_impact = 0.2, fast_impact = 2, hypersonic_impact = 10;
 
 bool nodal(const MatrixBody& body) { return body.problem.body.element.front() == "nodal"; }
 
-// A level alone, explicit; `damps`: fast motion. `linear` has one stiffness, so that its step is
-// stable in every state. Another material stiffens where it is strained, and a step that is clear
-// of the limit at rest is above it there.
+// Returns the outcome of one level alone with an explicit integrator. With `damps` the integrator
+// damps fast motion. `linear` has one stiffness, so that its step is stable in every state. Another
+// material stiffens under strain: a step below the limit at rest may then be above the limit.
 Expected of_explicit(const MatrixBody& body, bool damps, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
-  // also at 200 m/s: contact is solved implicitly, which adds no energy at any speed
+  // completes even at 200 m/s: contact is solved implicitly, which adds no energy at any speed
   if (linear) return completes();
   if (body.impact > 0)
     return damps && body.impact < fast_impact ? either(
@@ -140,10 +140,10 @@ Expected through_halved_steps() {
               "on the shape"};
 }
 
-// Integrators that damp fast motion come to the end at any step, as long as the solver finds a
-// state: with a material that forbids inversion it may not. Those that damp but fast motion gain
-// energy from a strong recoil; those that conserve it do so only while the stiffness stays the
-// same, and at ten times the critical step it does not.
+// Returns the outcome of an implicit integrator. Integrators that damp all motion complete at any
+// step, as long as the solver finds a state. With a material that forbids inversion it may not find
+// one. Integrators that damp only fast motion gain energy from a strong recoil. Integrators that
+// conserve energy do so only at constant stiffness, and at ten critical steps it changes.
 Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, bool linear,
                      bool forbids) {
   using Start = MatrixBody::Start;
@@ -161,16 +161,16 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, boo
     return either(
         "it damps slow motion little, so the recoil may have more energy than was put in");
   if (nodal(body) && body.start == Start::stretched)
-    return completes();  // tetrahedra turn inside out, their means do not
+    return completes();  // tetrahedra turn inside out, the mean at a vertex does not
   const bool crushed =
       body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
   if (!(forbids && crushed)) return completes();
   return !halves ? stops("inverted") : body.impact > 0 ? through_halved_steps() : completes();
 }
 
-// The inertia is fitted at rest and turns with the body: it does not know which way where elements
-// are far from their shape. Its long step takes what strikes fast through the plane at once; then
-// it takes shorter ones.
+// Returns the outcome of him. Its inertia is fitted at rest and turns with the body. Where elements
+// are far from their shape at rest, that rotation is not well defined. A long step takes a body
+// that strikes fast through the plane in one step; then him takes shorter steps.
 Expected of_him(const MatrixBody& body, const std::string& material, bool linear) {
   using Start = MatrixBody::Start;
   if (body.impact > fast_impact)
@@ -181,14 +181,14 @@ Expected of_him(const MatrixBody& body, const std::string& material, bool linear
         "its inertia is fitted at rest; how well it fits such a shape depends on the shape");
   if (flat || body.start == Start::mirrored) return stops();
   if (linear || body.impact > 0) return completes();
-  if (nodal(body)) return stops();  // its values are the most extreme
+  if (nodal(body)) return stops();  // nodal elements run only with the most extreme value
   return either(
       "its inertia is fitted again where the body stiffens; whether that is in time depends on the "
       "material");
 }
 
-// rs and fas at the finest level's critical step, shared equally: below the limit of each level, as
-// an explicit level alone with twice the margin.
+// Returns the outcome of rs and fas at the finest level's critical step, shared equally. Each level
+// is below its limit, like an explicit level alone with twice the margin.
 Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
   if (linear && body.impact > hypersonic_impact)
@@ -207,22 +207,21 @@ Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
       "the mapping");
 }
 
-// What must become of it, and why:
-// * a step above the limit is refused; where it is allowed, the run has to be stopped, since small
-// motions grow in every step;
-// * levels that lie apart are refused by every method that uses more than the finest one;
-// * an element that is inside out or flat from the start, where the material has no answer to that:
-// stopped at once, as inverted, unless
-//   halved steps turn it back;
-// * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear
-// of their limit: every method
-//   comes to the end;
-// * a body mirrored whole is at rest in st_venant_kirchhoff, which has no strain there: it stays;
-// * corotational elements have one stiffness but for rotations: newmark keeps their energy from
-// random starts;
-// * one V-cycle gives a point a part of the acceleration that stops it: at the highest speed it
-// passes through the plane;
-// * beyond that it depends on the kind of method.
+// Returns the outcome that a case must have, by these rules:
+// * A step above the limit is refused. Where it is allowed, the run has to be stopped, since small
+//   motions grow in every step.
+// * Levels that lie apart are refused by every method that uses more than the finest one.
+// * An element is inside out or flat from the start, and the material forbids inversion: the run is
+//   stopped at once, as inverted, unless halved steps turn the element back.
+// * Strains below 1 from rest: every method completes, since no material stiffens by as much as the
+//   steps keep clear of their limit.
+// * A body mirrored as a whole is at rest in st_venant_kirchhoff, which has no strain there: the
+//   run completes.
+// * Corotational elements have one stiffness except for rotations: newmark keeps their energy from
+//   random starts.
+// * One V-cycle gives a point only a part of the acceleration that stops it: at the highest speed
+//   it passes through the plane.
+// * All other cases depend on the kind of method.
 Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
   using Start = MatrixBody::Start;
   const bool needs_levels = method.kind == Method::Kind::him || method.kind == Method::Kind::shared;
@@ -231,7 +230,7 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
   const bool implicit =
       method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped;
-  // steps that Newton's method does not solve
+  // true where steps are halved that Newton's method does not solve
   const bool halves = implicit && method.name != "single/v_cycle_euler";
   if (body.inside_out() && forbids) {
     const bool turns_back = halves && body.start != Start::flat && method.name != "single/bdf2";
@@ -283,8 +282,8 @@ MatrixCase case_of(const MatrixBody& body, const Method& method, const std::stri
   return one;
 }
 
-// With nodal elements the most extreme value of each line is run, with one method of each kind and
-// the law that forbids inversion.
+// Returns whether nodal elements run this combination: one method of each kind, with neo_hookean,
+// which forbids inversion. They run only the most extreme value of each line.
 bool told_by_nodal(const std::string& material, const std::string& method) {
   return material == NeoHookean::name &&
          (method == "single/symplectic_euler" || method == "single/implicit_euler" ||

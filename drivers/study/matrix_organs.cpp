@@ -10,7 +10,7 @@
 #include <plica/meshes/organs.hpp>
 
 // Organs with tools in the stability matrix: irregular meshes, friction, thin tools, folds. Every
-// stepper comes to the end of each, by steps of 1 to 10 ms.
+// stepper must complete each run, at steps of 1 to 10 ms.
 namespace plica {
 
 namespace {
@@ -32,7 +32,7 @@ Body organ_of(const TetMesh& regular, double young_modulus) {
   return body;
 }
 
-/// 16 cm long.
+/// Returns a liver, 16 cm long.
 Body liver() { return organ_of(blob_mesh({0, 0, 0}, 0.16, 8), 2e3); }
 
 Body held_liver() {
@@ -47,10 +47,10 @@ Problem of_body(Body body) {
   return p;
 }
 
-constexpr double above = 2e-3;  // tools start so far from the organ [m]
+constexpr double above = 2e-3;  // distance of tools from the organ at the start [m]
 const Point spot = {-0.01, 0.005, 0};
 
-/// Of the organ near that spot [m].
+/// Returns the largest z of the organ within 15 mm of `spot` [m].
 double top_of(const Body& body) {
   double highest = 0;
   for (const Point& x : body.levels[0].vertices)
@@ -58,7 +58,7 @@ double top_of(const Body& body) {
   return highest;
 }
 
-/// A rod above the held liver that goes along a path.
+/// Returns a fixed liver and a rod above it that moves along a path.
 OrganRun under_a_rod(double radius, const std::vector<PathMotion::Knot>& knots) {
   Problem p = of_body(held_liver());
   const Point tip = spot + Point(0, 0, top_of(p.body) + above + radius);
@@ -113,7 +113,7 @@ OrganRun two_organs() {
   return {p, 0.15};
 }
 
-/// A loop of gut falls on the end that is held.
+/// Returns a loop of gut that falls on its fixed end.
 OrganRun folded_tube() {
   Problem p = of_body(organ_of(tube_mesh({.radius = 7e-3,
                                           .wall = 3e-3,
@@ -144,7 +144,7 @@ const OrganScene organ_scenes[] = {{"drop", drop},
 
 /// A method at a macro step [s].
 struct OrganMethod {
-  std::string name;  ///< as of a study
+  std::string name;  ///< name of a method, see StudyCase::method
   double step;
 };
 
@@ -170,7 +170,7 @@ MatrixRow run_organ(const OrganScene& scene, const std::string& element, double 
   Problem& p = run.problem;
   p.body.element = {element};
   set_ratio(p.body, ratio);
-  p.integration.macro_step = method.step;  // with as many sub-steps as it takes
+  p.integration.macro_step = method.step;  // sub-steps are automatic
   const std::string last = method.name.substr(method.name.find('/') + 1);
   if (last == "him")
     p.integration.cycle = last;

@@ -6,13 +6,13 @@
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
-// Laws and tissues in the stability matrix: explicit limits from both sides, and large strains of
-// the laws whose stiffness changes most.
+// Laws and tissues in the stability matrix. Explicit limits are tested from both sides. The laws
+// whose stiffness changes most are tested at large strains too.
 namespace plica {
 
 namespace {
 
-/// A beam of one of them.
+/// Beam of one law or tissue.
 struct TissueBeam {
   std::string name;
   MaterialOptions material;
@@ -20,7 +20,7 @@ struct TissueBeam {
 
 struct TissueRun {
   std::string method;
-  double step;  ///< over the critical one; 0: auto, 0.9
+  double step;  ///< macro step over the critical step; 0: auto, 0.9
   long macro_steps;
 };
 
@@ -34,7 +34,7 @@ MaterialOptions nearly_incompressible(MaterialOptions m, double mu) {
   return m;
 }
 
-MaterialOptions softening() {  // in tension; as of brain
+MaterialOptions softening() {  // softens in tension, like brain
   MaterialOptions m{"ogden"};
   m.convention = "two_mu_over_alpha2", m.terms = {{842, -4.7}};
   return nearly_incompressible(m, 842);
@@ -51,7 +51,7 @@ MaterialOptions viscous(MaterialOptions m) {
   return m;
 }
 
-/// Every tissue and every law of tissue, and relaxation.
+/// Returns a beam of every tissue and every law of tissue, and two beams that relax.
 std::vector<TissueBeam> tissue_beams() {
   std::vector<TissueBeam> all;
   for (const Choice& tissue : tissues()) {
@@ -66,7 +66,7 @@ std::vector<TissueBeam> tissue_beams() {
   return all;
 }
 
-/// Its volume stays.
+/// Stretches the body along x by a factor, at constant volume.
 void stretch_along_x(MatrixBody& body, double factor) {
   const double across = 1 / std::sqrt(factor) - 1;
   for (const Point& p : body.problem.body.levels.front().vertices)
@@ -94,7 +94,7 @@ MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const
                  .displacement = body.displacement,
                  .expected = expected};
   one.problem.integration.allow_unstable = run.step == above_limit.step;
-  // and not shorter ones
+  // one sub-step: the macro step itself is tested
   if (run.method.rfind("single/", 0) == 0) one.problem.integration.substeps = {1};
   return one;
 }
@@ -120,8 +120,8 @@ std::vector<MatrixCase> tissue_cases() {
     }
     for (const TissueBeam& beam : {softens, relaxes})
       add(beam, tled, 1, completes), add(beam, tled_above, 1, stops);
-    // Fibres 20 times as stiff as what is between them: beyond a tenth of strain a step of 0.9 of
-    // the limit at rest is too long
+    // Fibres are 20 times as stiff as the matrix between them. Beyond a strain of 0.1 a step of 0.9
+    // of the limit at rest is too long
     for (const double stretch : {0.9, 1.1}) {
       add(fibres, explicit_run, stretch, stops);
       for (const TissueRun& run : {shorter, implicit_run, him_run})

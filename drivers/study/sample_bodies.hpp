@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-// Bodies that tests and problems with known answers start from.
+// Bodies for tests and for problems with known solutions.
 namespace plica {
 
-/// Vectors whose components are evenly spread over [-size, size].
+/// Returns random vectors whose components are uniformly distributed over [-size, size].
 inline std::vector<Point> random_field(std::size_t count, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> within(-size, size);
@@ -19,14 +19,14 @@ inline std::vector<Point> random_field(std::size_t count, double size, unsigned 
   return field;
 }
 
-/// Whether a vertex lies on one of the box's faces.
+/// Returns whether a vertex lies on one of the box's faces.
 inline bool on_boundary(const Box& box, const Point& p) {
   const double slack = 1e-9 * (box.max - box.min).norm();
   return ((p - box.min).array() < slack).any() || ((box.max - p).array() < slack).any();
 }
 
-/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements
-/// alike.
+/// Returns a box whose inner vertices are moved at random by up to `amount` of a cell. No two
+/// elements are alike.
 inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15,
                             unsigned seed = 7) {
   TetMesh mesh = box_mesh(box, cells);
@@ -38,7 +38,7 @@ inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, dou
   return mesh;
 }
 
-/// With an example of what a law of tissue must be told: fibres askew, terms.
+/// Returns the material with examples of the data that a law of tissue needs: skew fibres, terms.
 inline MaterialOptions complete(MaterialOptions material) {
   const MaterialInfo* info = find_material(material.model);
   if (info && info->has_fibres) material.fibres = FibreOptions{{2, 2, 1}, Point(-2, 1, 2)};
@@ -47,7 +47,7 @@ inline MaterialOptions complete(MaterialOptions material) {
   return material;
 }
 
-/// One body of one level, without loads.
+/// Returns a problem of one body with one level, without loads.
 inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
   Problem p;
   p.body.levels = {std::move(mesh)};
@@ -56,12 +56,13 @@ inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
   return p;
 }
 
-/// A soft cube of 0.1 m, no two elements alike.
+/// Returns a soft cube of 0.1 m, in which no two elements are alike.
 inline Problem irregular_cube(const std::string& material, int cells) {
   return verify_body(jittered_box({{0, 0, 0}, {0.1, 0.1, 0.1}}, {cells, cells, cells}),
                      {material, 20e3, 0.35, 1000});
 }
 
+/// Returns the displacement F X + shift - X of each vertex [m].
 inline std::vector<Point> affine_field(const TetMesh& mesh, const Eigen::Matrix3d& F,
                                        const Point& shift) {
   std::vector<Point> u;
@@ -69,14 +70,15 @@ inline std::vector<Point> affine_field(const TetMesh& mesh, const Eigen::Matrix3
   return u;
 }
 
-/// The mean stress of a body in balance but for its boundary: V P = - sum f X^T [J].
+/// Returns the mean first Piola-Kirchhoff stress P times the volume V: V P = - sum f X^T [J]. The
+/// forces f must be in balance except on the boundary.
 inline Eigen::Matrix3d virial(const std::vector<Point>& force, const TetMesh& mesh) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t a = 0; a < force.size(); ++a) sum -= force[a] * mesh.vertices[a].transpose();
   return sum;
 }
 
-/// sqrt of sum w |a - b|^2
+/// Returns the weighted distance sqrt(sum w |a - b|^2).
 inline double distance(const std::vector<Point>& a, const std::vector<Point>& b,
                        const std::vector<double>& weight) {
   double sum = 0;
@@ -84,14 +86,14 @@ inline double distance(const std::vector<Point>& a, const std::vector<Point>& b,
   return std::sqrt(sum);
 }
 
-/// The largest length; NaN where one is.
+/// Returns the largest length of a vector; NaN where a vector is.
 inline double largest_length(const std::vector<Point>& field) {
   double most = 0;
   for (const Point& p : field) most = p.norm() <= most ? most : p.norm();
   return most;
 }
 
-/// The vertex nearest to a point.
+/// Returns the index of the vertex nearest to a point.
 inline std::size_t vertex_at(const TetMesh& mesh, const Point& x) {
   std::size_t best = 0;
   for (std::size_t a = 1; a < mesh.vertices.size(); ++a)

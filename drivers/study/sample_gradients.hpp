@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-// Deformation gradients to try materials on.
+// Deformation gradients for tests of materials.
 namespace plica {
 
 inline Eigen::Matrix3d random_rotation(std::mt19937& random) {
@@ -34,8 +34,9 @@ inline Eigen::Matrix3d eigen(const Mat3<double>& A) {
   return m;
 }
 
-/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else
-/// it declares, with fibres askew.
+/// Returns a material's constants for standard parameters and skew fibres (TissueSettings).
+/// Standard are young_modulus 20 kPa, poisson_ratio 0.4, and the values of the others that it
+/// declares.
 template <class M>
 typename M::template Constants<double> sample_constants() {
   std::vector<double> values;
@@ -45,7 +46,7 @@ typename M::template Constants<double> sample_constants() {
   return M::kernel_constants(values.data());
 }
 
-/// The same for numbers of another kind, or packs.
+/// Returns the values of sample_constants() as constants of type T, a number or a pack.
 template <class M, class T>
 typename M::template Constants<T> sample_constants_as() {
   const std::vector<double> values = as_list(sample_constants<M>());
@@ -56,15 +57,14 @@ typename M::template Constants<T> sample_constants_as() {
       0);
 }
 
-/// A gradient and the scale on which it may be varied: its smallest singular value, or that of its
-/// neighbours where that is 0.
+/// A deformation gradient and the scale on which it may be varied.
 struct Gradient {
   Eigen::Matrix3d F;
-  double smallest;
+  double smallest;  ///< smallest singular value of F; 0.05 where it is 0
 };
 
-/// Mild, large, nearly flat and, where the material bears it, flat and inverted deformations in
-/// random directions.
+/// Returns mild, large and nearly flat deformations in random directions.
+/// @param inverted  true: flat and inverted deformations too
 inline std::vector<Gradient> gradients(bool inverted) {
   std::vector<Eigen::Vector3d> stretches = {{1.02, 0.99, 1.01}, {1.4, 0.8, 0.9},  {3.0, 0.5, 0.6},
                                             {1.1, 0.9, 1e-3},   {1.2, 0.7, 0.05}, {0.3, 0.25, 0.2}};

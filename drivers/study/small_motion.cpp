@@ -32,21 +32,22 @@ Problem about_rest(Problem p, const typename B::Exec& exec) {
   p.body.prescribed.clear();
   p.body.initial = {};
   p.integration.switch_threshold =
-      1e-3 * std::sqrt(std::numeric_limits<typename B::Real>::max());  // its square is finite
+      1e-3 * std::sqrt(std::numeric_limits<typename B::Real>::max());  // finite square
   p.integration.implicit = {.relative_residual = 1e-12};
   return p;
 }
 
 namespace {
 
-constexpr double largest_energy_ratio = 10;  // of the last quarter to the first
-// times the energy at the start: nothing bounded gets there
+// largest energy of the last quarter over the first for which a motion is bounded
+constexpr double largest_energy_ratio = 10;
+// energy over that at the start above which a motion is surely unbounded
 constexpr double hopeless = 1e12;
-constexpr double amplitude = 1e-6;  // of an edge, per macro step
-constexpr double quarters = 0.75;   // of a run, from its first quarter to its last
+constexpr double amplitude = 1e-6;  // motion per macro step over the mean edge
+constexpr double quarters = 0.75;   // part of a run from its first quarter to its last
 
-/// Takes translation and rotation out of the velocities of a body that nothing holds: drifting ever
-/// further away is no growth, but mappings between meshes make some strain of it.
+/// Removes translation and rotation from the velocities of a body without fixed vertices. Rigid
+/// drift is no growth, but mappings between meshes make some strain of it.
 void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass,
                 std::vector<Point>& v) {
   double whole = 0;

@@ -6,35 +6,38 @@
 
 namespace plica {
 
-/// The problem of its small motions about rest: every material is `linear`, nothing acts but
-/// elasticity and damping, given motions stand still, mappings never switch, implicit levels solve
-/// to 1e-12; at the macro step, the shares and the sub-steps of the whole problem, also above a
-/// limit. InputError where that is refused, as cycle auto is: ask choose_cycle() before.
+/// Returns the problem of small motions about rest. Every material is `linear`, only elasticity and
+/// damping act, vertices with given motions are fixed, mappings never switch, and implicit levels
+/// solve to 1e-12. Macro step, shares and sub-steps are those of the given problem, also above a
+/// limit. Throws InputError where the set-up is refused. Cycle auto is refused: call choose_cycle()
+/// before.
 template <class B>
 Problem about_rest(Problem problem, const typename B::Exec& exec);
 
-/// How a run of small random motion is made and judged.
+/// Length of a run of small random motion, and its caller's right to end it.
 struct SmallMotionOptions {
-  long macro_steps = 400;            ///< at most so many
-  std::function<bool()> go_on = {};  ///< asked after every macro step; false ends the run
+  long macro_steps = 400;            ///< maximum number of macro steps
+  std::function<bool()> go_on = {};  ///< called after every macro step; false ends the run
 };
 
-/// What became of it.
+/// Result of a run of small random motion.
 struct SmallMotion {
-  /// its energy has not grown by more than a factor of ten from the first quarter to the last
+  /// true where the energy has grown by at most a factor of ten from the first quarter to the last
   bool bounded = true;
-  bool stopped = false;  ///< by go_on
-  double growth = 0;     ///< of the amplitude's logarithm per macro step, from quarter to quarter;
-                         ///< infinite where it ended early
+  bool stopped = false;  ///< true where go_on ended the run
+  /// growth of the amplitude's logarithm per macro step, from the first quarter to the last.
+  /// Infinite where the run diverged and ended early
+  double growth = 0;
 };
 
-/// The slowest growth of the amplitude's logarithm per macro step that such a run can tell: that at
-/// which one mode of so many, all of which start with the same energy, multiplies the whole by ten.
+/// Returns the slowest growth of the amplitude's logarithm per macro step that small_motion() can
+/// detect. At this growth one mode of `modes`, which all start with the same energy, multiplies the
+/// whole energy by ten.
 double visible_growth(double modes, long macro_steps);
 
-/// Lets every free vertex start from rest in shape with a random velocity of a millionth of an edge
-/// per step, which excites all modes alike, and steps a body without loads by its cycle, its
-/// inertia and sub-steps as they were built, with macro steps of t [s].
+/// Runs a body without loads from its rest shape, with macro steps of t [s]. Every free vertex
+/// starts with a random velocity of a millionth of an edge per macro step, which excites all modes
+/// alike. Cycle, inertia and sub-steps are as they were built.
 template <class B>
 SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOptions& options);
 

@@ -13,7 +13,7 @@ namespace plica {
 
 namespace {
 
-/// Why the run did not come to its end; none where it did.
+/// Runs the problem and returns why it did not complete; none where it did.
 template <class B>
 std::optional<SceneLimit> failure_of(const Problem& problem, double duration,
                                      const std::function<void()>& go_on) {
@@ -38,9 +38,9 @@ std::optional<SceneLimit> failure_of(const Problem& problem, double duration,
   return {};
 }
 
-/// Runs the problem as it is for `duration` [s], time and again, for the largest macro step with
-/// which it comes to the end. Explicit sub-steps may be above their limit.
-/// @param go_on  called after every macro step; what it throws ends the search
+/// Finds the largest macro step at which the problem itself completes `duration` [s], by repeated
+/// runs. Explicit sub-steps may be above their limit.
+/// @param go_on  called after every macro step; an exception from it ends the search
 template <class B>
 SceneLimit scene_limit(const Problem& problem, double duration, const StepRange& range,
                        const std::function<void()>& go_on) {
@@ -61,26 +61,28 @@ using Clock = std::chrono::steady_clock;
 using Exec = Kokkos::DefaultExecutionSpace;
 using Kind = LargestStep::Kind;
 
-constexpr long explicit_steps = 400, cycle_steps = 600, implicit_steps = 40;  // macro steps
-// times the critical step
+// macro steps of a run
+constexpr long explicit_steps = 400, cycle_steps = 600, implicit_steps = 40;
+// longest macro step over the critical step
 constexpr double implicit_most = 1000;
-// times the finest critical step
+// shortest and longest macro step over the finest critical step
 constexpr double cycle_least = 0.5, cycle_most = 32;
-// per macro step, that a cycle may have and still be called stable
+// growth per macro step up to which a cycle is called stable
 constexpr double least_growth = 1e-4;
-constexpr double longest_run = 16000;  // macro steps, to show a slow growth
-constexpr double him_most = 64;        // likewise
-// of the limit of small motions, where the scene's own runs begin
+constexpr double longest_run = 16000;  // maximum macro steps of a run that shows slow growth
+constexpr double him_most = 64;        // longest macro step over the finest critical step
+// first macro step of the scene's own runs over the limit of small motions
 constexpr double scene_at = 0.99;
-constexpr double scene_least = 1.0 / 64;  // of where they begin
+constexpr double scene_least = 1.0 / 64;  // shortest macro step of these runs over the first
 
-struct Stopped {};  // thrown through the searches where the caller, or the budget, has had enough
+struct Stopped {};  // thrown through the searches where the caller or the budget ends them
 
-/// What is searched for one method, and where.
+/// A method with the problem on which its limit is searched.
 struct Sought {
   StudyCase method;
   Problem problem;
-  double critical = 0;  // of its finest level under symplectic Euler, at rest without contact [s]
+  // critical step of its finest level under symplectic Euler, at rest without contact [s]
+  double critical = 0;
 };
 
 template <class B>
@@ -111,7 +113,7 @@ class Search {
 
  private:
   void add(const StudyCase& one) {
-    // it chooses among stable steps: no method of its own
+    // cycle auto chooses among stable steps: it is no method of its own
     if (one.integration.cycle == "auto") return;
     if (one.level == 0) return methods_.push_back(one);
     for (const std::string& integrator : names(integrators()))
@@ -201,7 +203,7 @@ class Search {
         }));
   }
 
-  // The inertia is that of its own macro step; what is searched is how far that may be overstepped
+  // Finds the longest step that him's inertia allows; the inertia stays that of its own macro step
   void find_him(StabilityRow& row, const Sought& s) {
     BuiltHierarchy<B> built = build_hierarchy<B>(about_rest<B>(s.problem, exec_), exec_);
     row.predicted = built.macro_step * 2 / std::sqrt(built.him->product);
@@ -237,11 +239,11 @@ class Search {
     return *growth;
   }
 
-  // By its map; and by a run, where one of reasonable length can show it
+  // Returns whether a cycle grows, by its map, and by a run where one of reasonable length shows it
   bool grows_at(StabilityRow& row, const Sought& s, double t, double modes) {
     const CycleGrowth growth = growth_at(s, t, 1 + least_growth);
     const Body& body = s.problem.body;
-    // away, which is no growth
+    // rigid drift away from the start is no growth
     const bool drifts = body.fixed.empty() && body.prescribed.empty() && !growth.converged;
     const double unsure =
         2 * growth.uncertainty + (drifts ? 3.0 / static_cast<double>(growth.macro_steps) : 0);
@@ -266,7 +268,7 @@ class Search {
     }
   }
 
-  // Whether small motions about rest are not the whole story
+  // Returns whether the scene may have another limit than small motions about rest
   bool has_own_limit() const {
     return problem_.body.material.model != "linear" || !problem_.contact.obstacles.empty();
   }

@@ -9,23 +9,23 @@
 
 namespace plica {
 
-/// Where the search for a largest stable step looks.
+/// Range of the search for a largest stable step.
 struct StepRange {
-  double guess = 0;  ///< where it starts [s]
-  double least = 0;  ///< a method unstable there is not looked at any further [s]
-  double most = 0;   ///< nor one stable there [s]
-  double ratio = 0;  ///< of the first two steps tried, > 1; further ones are ever further apart
+  double guess = 0;  ///< first step tried [s]
+  double least = 0;  ///< shortest step tried: a method unstable there is `growing` [s]
+  double most = 0;   ///< longest step tried: a method stable there is `unlimited` [s]
+  double ratio = 0;  ///< ratio of the first two steps tried, > 1; it is squared with every step
   double close = 0;  ///< relative width at which the bisection ends
 };
 
-/// What it found.
+/// Result of the search for a largest stable step.
 struct LargestStep {
   enum class Kind { limited, growing, unlimited } kind = Kind::limited;
-  double step = 0;  ///< the largest seen stable; growing: the smallest seen unstable [s]
+  double step = 0;  ///< largest stable step found; growing: smallest unstable one [s]
 };
 
-/// Brackets the step at which stable(step) turns false nearest to the guess, then bisects its
-/// logarithm.
+/// Finds the largest stable step near the guess. It brackets the step at which stable(step) becomes
+/// false, then bisects the logarithm of the step.
 template <class Stable>
 LargestStep largest_stable(const StepRange& range, const Stable& stable) {
   double low = range.guess, high = range.guess, ratio = range.ratio;
@@ -51,63 +51,70 @@ LargestStep largest_stable(const StepRange& range, const Stable& stable) {
   return {LargestStep::Kind::limited, low};
 }
 
-/// The largest step of the scene itself, from its own start under its own loads, with a method.
+/// Largest macro step at which a method completes the scene itself, from its own start under its
+/// own loads.
 struct SceneLimit {
-  /// the largest macro step with which it came to its end [s]; none: no step tried did
+  /// largest macro step at which the run completed [s]; none: no run completed
   std::optional<double> step;
-  /// the smallest with which it did not [s]; none: every step tried did
+  /// smallest macro step at which the run failed [s]; none: no run failed
   std::optional<double> failed_step;
-  double failed_time = 0;            ///< simulated until then [s]
-  std::string reason;                ///< diagnosis or message
-  std::optional<Diagnosis> failure;  ///< where and how; none where the set-up refused
+  double failed_time = 0;            ///< simulated time until the failure [s]
+  std::string reason;                ///< diagnosis or message of the failure
+  std::optional<Diagnosis> failure;  ///< place and kind; none where the set-up refused
 };
 
-/// The stability of a method on one problem.
+/// Stability of a method on one problem.
 struct StabilityRow {
   std::string method, distribution, variant;  ///< see StudyCase
-  std::string integrator;                     ///< of a level alone
-  /// limited | unlimited: up to stable_up_to | growing: at every useful step | refused
+  std::string integrator;                     ///< with a level alone: its integrator
+  /// limited | unlimited: stable up to stable_up_to | growing: at every useful step | refused
   std::string status;
-  std::string reason;        ///< where it is refused
-  double critical_step = 0;  ///< of its finest level under symplectic Euler, contact included [s]
-  /// largest stable macro step of small motions [s]; 0: none; empty: no limit
+  std::string reason;  ///< why it is refused
+  /// critical step of its finest level under symplectic Euler, contact included [s]
+  double critical_step = 0;
+  /// predicted largest stable macro step of small motions [s]; 0: none; empty: no limit
   std::optional<double> predicted;
-  std::optional<double> measured;      ///< the same by runs [s]
+  std::optional<double> measured;      ///< largest stable macro step of small motions in runs [s]
   std::optional<double> ratio;         ///< measured over predicted
   std::optional<double> stable_up_to;  ///< unlimited: the largest macro step that was run [s]
-  std::optional<double> growth_step;   ///< macro step [s] of
-  /// see CycleGrowth; of cycles, and of what is growing
+  std::optional<double> growth_step;   ///< macro step of `spectral_radius` [s]
+  /// see CycleGrowth; for cycles, and for methods that are growing
   std::optional<double> spectral_radius, growth_per_second;
-  /// of a body that is not linear, or touches something
+  /// limit of the scene itself; none where small motions tell all: `linear` without obstacles
   std::optional<SceneLimit> scene;
   std::string label() const;
 };
 
+/// Rows of all methods, and the methods that were left out.
 struct StabilityResult {
   std::vector<StabilityRow> rows;
-  std::vector<std::string> left_out;  ///< methods that there was no time for
-  bool stopped = false;               ///< by the caller, before all was done
+  std::vector<std::string> left_out;  ///< methods for which time was short
+  bool stopped = false;               ///< true where the caller ended it early
 };
 
-/// How far a search is.
+/// Progress of a search.
 struct StabilityProgress {
   std::string doing;
-  std::size_t done = 0, of = 0;  ///< methods
+  std::size_t done = 0, of = 0;  ///< numbers of methods
   const StabilityResult* so_far = nullptr;
-  bool new_row = false;  ///< since the last call
+  bool new_row = false;  ///< true where a row was added since the last call
 };
 
-/// Called before and after every method and during it; false stops the search.
+/// Function called before, during and after every method; false stops the search.
 using StabilityWatch = std::function<bool(const StabilityProgress&)>;
 
-/// The largest stable macro step of each method, by bisection on runs beside the one predicted
-/// before. Small motions: about rest, linearised, without loads and contact, see small_motion.hpp.
-/// Predicted is, of a level alone, what its set-up says; of cycle him, the limit of the inertia
-/// that it has at its own macro step, 2 / sqrt(lambda); of the other cycles, the step at which the
-/// spectral radius of their map exceeds 1 by more than such a run can detect.
-/// @param options  its methods (empty: all, explicit integrators on coarser levels too), variants,
-/// duration, budget, and the first precision InputError for bad options or problems; methods that
-/// refuse are rows. Kokkos must be initialised.
+/// Finds the largest stable macro step of each method and compares it with the predicted one. It
+/// uses bisection on runs of small motions. Small motions are linearised about rest, without loads
+/// and contact, see small_motion.hpp.
+///
+/// For a level alone the prediction is that of its set-up. For cycle him it is the limit of the
+/// inertia of its own macro step, 2 / sqrt(lambda). For the other cycles it is the step at which
+/// the spectral radius of the map exceeds 1 by more than such a run can detect.
+///
+/// Throws InputError for bad options or problems; methods that refuse are rows. Kokkos must be
+/// initialised.
+/// @param options  used are the methods (empty: all, explicit integrators on coarser levels too),
+///                 variants, duration, budget, and the first precision
 StabilityResult stability(const Problem& problem, const StudyOptions& options,
                           const StabilityWatch& watch = {});
 

@@ -13,27 +13,27 @@
 #include <plica/drivers/study/study_case.hpp>
 #include <random>
 
-// Bodies described in other words must move alike.
+// Runs the cases of the stability matrix, and checks that other descriptions of a body move alike.
 namespace plica {
 
 namespace {
 
 using Sim = Simulation<Backend<double, Kokkos::DefaultExecutionSpace>>;
 
-constexpr long look_every = 10;  // macro steps
+constexpr long look_every = 10;  // macro steps between two checks for finite values
 
 bool all_finite(const std::vector<Point>& points) {
   return std::ranges::all_of(points, [](const Point& p) { return p.allFinite(); });
 }
 
-/// What a caller can write of level 0. The state that the caller put in is his own: a material may
-/// have no energy there.
+/// Returns whether all that a caller can write of level 0 is finite. The energy at time 0 is not
+/// checked: a material may have none in the state that the caller sets.
 bool writes_numbers(const Sim& simulation) {
   return (simulation.time() == 0 || std::isfinite(simulation.energies().total())) &&
          all_finite(simulation.positions()) && all_finite(simulation.velocities());
 }
 
-/// Whether a diagnosis says where and what to do, and is of a kind that this run can come to.
+/// Returns whether a diagnosis says a place and a remedy, and is of a kind possible in this run.
 bool is_sound(const Diagnosis& d, const Problem& p) {
   const bool all_explicit = std::ranges::all_of(p.integration.integrator, is_explicit);
   const bool possible = d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" ||
@@ -130,7 +130,7 @@ std::vector<Other> others() {
           {.name = "renumbered", .renumber = true}};
 }
 
-/// new number of each vertex
+/// Returns the new number of each vertex.
 std::vector<int> shuffled(std::size_t count) {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -151,13 +151,14 @@ TetMesh described(const TetMesh& mesh, const Other& other) {
   return result;
 }
 
-/// kg and s stay: stress is per length, density per its cube.
+/// Returns the problem in the other description. kg and s stay: stress scales with 1 / length,
+/// density with 1 / length^3.
 Problem described(const Problem& problem, const Other& other) {
   Problem p = problem;
   for (TetMesh& mesh : p.body.levels) mesh = described(mesh, other);
   p.body.material.young_modulus /= other.scale, p.body.material.density /= std::pow(other.scale, 3);
   p.gravity = other.scale * (other.R * p.gravity);
-  const double slack = 1e-6 * other.scale;  // the plane through vertices that round-off has moved
+  const double slack = 1e-6 * other.scale;  // round-off of vertices on the plane
   const Point normal = other.R * Point::UnitX();
   p.body.fixed = {HalfSpaceSelection{other.shift + slack * normal, normal}};
   return p;
@@ -172,7 +173,7 @@ std::vector<Point> displacement_of(const Problem& problem) {
   return u;
 }
 
-/// The largest difference over the largest displacement.
+/// Returns the largest difference of displacements over the largest displacement.
 double difference(const Problem& problem, const Other& other) {
   const std::vector<Point> u = displacement_of(problem),
                            w = displacement_of(described(problem, other));
@@ -186,19 +187,19 @@ double difference(const Problem& problem, const Other& other) {
   return largest / most;
 }
 
-/// What rounding may come to. Each position is rounded by eps times its size, a strain by that over
-/// an edge, and the motion compared is of strains of 1e-2: so much per step, and every step adds to
-/// it.
+/// Returns the relative difference that rounding may cause. A position is rounded by eps times its
+/// size, a strain by that over an edge. The compared motion has strains of 1e-2, and every step
+/// adds the same error.
 double allowed(const Other& other) {
   constexpr double edge = 0.05, strain = 1e-2;
   const double eps = std::numeric_limits<double>::epsilon();
   return eps * (other.shift.norm() + 1) / edge / strain * macro_steps;
 }
 
-/// him's inertia is fitted to a hundredth of the largest eigenvalue, which is looked for from a
-/// random vector that goes by the vertices' numbers and the axes of space: details move with
-/// another inertia by about as much. So are the smoothers of the one cycle that v_cycle_euler
-/// answers with.
+/// Relative difference allowed for him and v_cycle_euler. him's inertia is fitted to a hundredth of
+/// the largest eigenvalue. The search for it starts from a random vector, which depends on the
+/// vertices' numbers and the axes of space. The inertia of details thus differs by about a
+/// hundredth between descriptions. The smoothers of v_cycle_euler are fitted in this way too.
 constexpr double allowed_of_fits = 1e-2;
 
 MatrixRow compared(const std::string& material, const std::string& method, const Other& other) {
@@ -233,7 +234,7 @@ std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size) {
   for (const std::string& name : names(integrators()))
     Integrators::visit(name, [&](auto member) {
       using Kind = decltype(member);
-      // what grows at every step multiplies rounding
+      // an integrator that is unstable at every step multiplies rounding errors
       const bool steady = !Kind::is_explicit || Kind::limit.radius > 0;
       if (steady && (!small || name == "symplectic_euler")) methods.push_back("single/" + name);
     });

@@ -7,28 +7,28 @@
 
 namespace plica {
 
-/// A body of the stability matrix, and what is known of its run beforehand.
+/// Body of the stability matrix, and the facts that predict its run.
 struct MatrixBody {
   Problem problem;
   std::vector<Point> displacement;  ///< at the start [m]; empty: none
-  /// macro step over the finest critical step; 0: the method's own
+  /// macro step over the finest critical step; 0: that of the method
   double step = 0;
   double load_ratio = 1e-4;  ///< rho g L / E, from which gravity follows; 0: none
-  /// The shape that it starts in.
+  /// Shape at the start.
   enum class Start { rest, stretched, thin, flat, turned, mirrored, random } start = Start::rest;
-  double impact = 0;      ///< speed at which it strikes, over that of its waves
-  bool refused = false;   ///< its step is above the limit
-  bool unstable = false;  ///< and is taken all the same
-  bool apart = false;     ///< its levels lie at different places
+  double impact = 0;      ///< impact speed over the wave speed
+  bool refused = false;   ///< true where the step is above the limit
+  bool unstable = false;  ///< true where the step is above the limit and allowed
+  bool apart = false;     ///< true where the levels lie at different places
 
-  /// About: a cantilever four times as long as thick is strained by 12 times the load ratio at
-  /// rest, 24 times when it is let go.
+  /// Returns the largest strain, about. A cantilever four times as long as thick has a strain of 12
+  /// times the load ratio at rest, and 24 times when it is released.
   double strain() const { return 24 * load_ratio; }
-  bool inside_out() const { return start >= Start::flat; }  ///< elements have J <= 0 at the start
+  bool inside_out() const { return start >= Start::flat; }  ///< true: some J <= 0 at the start
   void load();                                              ///< sets gravity
 };
 
-/// 0.4 x 0.1 x 0.1 m, clamped at x = 0, of 192 tetrahedra and 24.
+/// Returns a beam of 0.4 x 0.1 x 0.1 m, clamped at x = 0. Its levels have 192 and 24 tetrahedra.
 MatrixBody clamped_beam();
 
 void set_young_modulus(MatrixBody& body, double pascal);
@@ -39,27 +39,27 @@ void set_size(MatrixBody& body, double length);
 void set_gravity(MatrixBody& body, double factor);
 void set_step(MatrixBody& body, double over_critical);
 void set_unstable_step(MatrixBody& body, double over_critical);
-/// One layer of cells of level 0 is so many times thinner than it is wide.
+/// Makes one layer of cells of level 0 thinner: its width is `ratio` times its thickness.
 void set_slivers(MatrixBody& body, double ratio);
 void set_stretch(MatrixBody& body, double factor);
-/// Across the beam, along z: 0 flattens, below 0 inverts.
+/// Starts with the thickness along z multiplied by a factor: 0 flattens, below 0 inverts.
 void set_thickness(MatrixBody& body, double factor);
 void set_random(MatrixBody& body, double seed);
-/// Free, it falls flat on a plane.
+/// Lets the free body fall flat on a plane at this speed [m/s].
 void set_impact(MatrixBody& body, double speed);
-/// Its outer half is stiffer.
+/// Makes the outer half `ratio` times as stiff as the inner one.
 void set_contrast(MatrixBody& body, double ratio);
 void set_one_tetrahedron(MatrixBody& body, double edge);
 void set_levels(MatrixBody& body, double count);
-/// Level 1 lies so many lengths of the beam further along.
+/// Moves level 1 along x by this number of beam lengths.
 void set_overlap(MatrixBody& body, double lengths);
 
-/// The outcomes that a run may have. At least one is true.
+/// Outcomes that a run may have. At least one is true.
 struct Expected {
-  bool complete = false;     ///< it reaches its end
-  bool stop = false;         ///< it is stopped with a diagnosis
-  bool refuse = false;       ///< its set-up refuses
-  std::string kind = {};     ///< of the diagnosis; empty: any that fits what is run
+  bool complete = false;     ///< the run completes
+  bool stop = false;         ///< the run is stopped with a diagnosis
+  bool refuse = false;       ///< the set-up refuses
+  std::string kind = {};     ///< kind of the diagnosis; empty: any that this run can have
   std::string why = {};      ///< why more than one is right; empty where only one is
   std::string text() const;  ///< "completed or stopped"
 };
@@ -67,65 +67,70 @@ struct Expected {
 /// One run of the matrix.
 struct MatrixCase {
   std::string name;    ///< "E = 1e+10 Pa, linear"
-  std::string method;  ///< as of a study
-  Problem problem;     ///< complete but for its macro step
-  double step = 0;     ///< that, times the critical step of its finest level (of an implicit one
-                       ///< symplectic Euler's); 0: auto
+  std::string method;  ///< name of a method, see StudyCase::method
+  Problem problem;     ///< complete except for its macro step
+  /// macro step over the critical step of the finest level; an implicit level has that of
+  /// symplectic Euler; 0: auto
+  double step = 0;
   long macro_steps = 0;
   std::vector<Point> displacement;  ///< at the start [m]; empty: as the problem says
   Expected expected;
 };
 
-/// Its outcome.
+/// Outcome of a case.
 struct MatrixRow {
   std::string name, method, expected;
-  std::string outcome;  ///< completed | stopped: KIND | refused | not finite | no diagnosis; of an
-                        ///< invariance how much differs
+  /// completed | stopped: KIND | refused | not finite | no diagnosis; for an invariance the
+  /// relative difference
+  std::string outcome;
   bool ok = false;
   std::string detail;    ///< diagnosis or message
   std::string why = {};  ///< see Expected
 };
 
+/// Outcomes of all cases.
 struct MatrixResult {
   std::vector<MatrixRow> rows;
-  bool stopped = false;      ///< by the caller, before all was done
-  std::size_t left_out = 0;  ///< cases that were not run then
-  bool ok() const;           ///< every row is
+  bool stopped = false;      ///< true where the caller ended it early
+  std::size_t left_out = 0;  ///< number of cases that were not run
+  bool ok() const;           ///< returns whether every row is ok
 };
 
-/// How much of it.
+/// Size of the matrix.
 enum class MatrixSize {
   whole,  ///< every value, material and method
-  small,  ///< of each line its last value, with an explicit level alone and him
+  small,  ///< the last value of each line, with an explicit level alone and him
 };
 
-/// Whether an element that turns inside out ends the run.
+/// Returns whether an element of this material ends the run when it turns inside out.
 bool forbids_inversion(const std::string& material);
 
-/// Every case, from one table; the outcome that each must have follows from rules that are stated
-/// there.
+/// Returns every case, from one table. The outcome that each must have follows from the rules at
+/// expected_of(), in matrix_cases.cpp.
 std::vector<MatrixCase> stability_matrix(MatrixSize size = MatrixSize::whole);
 
-/// Every tissue and law of tissue, fibres, softening and relaxation, of linear and nodal elements;
-/// the whole matrix ends with them.
+/// Returns the cases of every tissue and law of tissue, of fibres, softening and relaxation, with
+/// linear and nodal elements. They are the last cases of the whole matrix.
 std::vector<MatrixCase> tissue_cases();
 
-/// Runs one. A state that the caller could write and that is not finite, a diagnosis that does not
-/// say where, or a kind that cannot be are never what was expected.
+/// Runs one case. The row is never ok where a state that a caller can write is not finite. It is
+/// also never ok where a diagnosis does not say its place, or its kind is impossible in this run.
 MatrixRow run_case(const MatrixCase& one);
 
-/// Whether turned, moved, renumbered bodies and other units of length give the same answers: a row
-/// for each of them and each method.
+/// Returns the cases that check invariance: turned, moved and renumbered bodies and other units of
+/// length must move alike. Each case is one row: one change with one material and one method.
 std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size = MatrixSize::whole);
 
-/// Organs with tools: an irregular liver that is dropped, poked, dragged along, pierced at, grasped
-/// and swung, two organs, a folded tube; by every stepper, with linear and nodal elements, nu 0.3
-/// to 0.49, steps of 1 to 10 ms. Each must come to its end.
+/// Returns the cases of organs with tools. An irregular liver is dropped, poked, dragged along,
+/// pierced at, grasped and swung; other cases are two organs and a folded tube. They are run by
+/// every stepper, with linear and nodal elements, nu 0.3 to 0.49, steps of 1 to 10 ms. Each must
+/// complete.
 std::vector<std::function<MatrixRow()>> organ_cases(MatrixSize size = MatrixSize::whole);
 
-/// Called after every row with how many there will be; false stops it.
+/// Function called after every row with the total number of rows; false stops the matrix.
 using MatrixWatch = std::function<bool(const MatrixResult&, std::size_t)>;
 
+/// Runs the cases, then the functions of `more`, each of which makes a row.
 MatrixResult run_matrix(const std::vector<MatrixCase>& cases,
                         const std::vector<std::function<MatrixRow()>>& more,
                         const MatrixWatch& watch = {});

@@ -67,7 +67,7 @@ class Study {
                                [&](const StudyRow& row) { return row.key == one.key(); });
   }
 
-  // "": the problem's own
+  // Returns the kinds of elements to compare; "": the problem's own
   std::vector<std::string> elements() const {
     if (!options_.elements.empty()) return options_.elements;
     return options_.truth ? element_families() : std::vector<std::string>{""};
@@ -89,10 +89,11 @@ class Study {
     return true;
   }
 
-  // of one run, and of all its runs [s]; what rows of the same kind took corrects it
+  // Returns the predicted wall time of one run [s], corrected by measured rows of the same kind
   double predicted_once(const StudyCase& one) {
     return one.predicted_evaluations * result_.reference.seconds_per_evaluation * correction(one);
   }
+  // Returns the predicted wall time of all runs of a case [s]
   double predicted(const StudyCase& one) {
     const double run = predicted_once(one);
     return run * (1 + timed_runs_of(run, options_.timed_runs));
@@ -106,9 +107,9 @@ class Study {
     return !options_.budget || elapsed() + seconds <= *options_.budget;
   }
 
-  // Timed runs that there is time for; none where not even one run fits. Controls make do with one
-  // run. The first of them, which says what the budget would have bought without any cycle, is run
-  // whatever is left.
+  // Returns the number of timed runs that the budget allows; none where not even one run fits. A
+  // control may have its first run alone (0). The first control is always run, since it says what
+  // the budget gives without any cycle.
   std::optional<int> affordable(const StudyCase& one) {
     if (fits(predicted(one))) return options_.timed_runs;
     if (one.control && (one.rank == 0 || fits(predicted_once(one)))) return 0;
@@ -216,7 +217,8 @@ class Study {
     row.work = static_cast<double>(run.tet_evaluations) / unit_work_;
   }
 
-  // The same mesh and elements converged in time lie between the row and the truth
+  // Splits the error against the truth. The row's mesh and elements, converged in time, separate
+  // the error in space from that in time
   void add_parts(StudyRow& row, const StudyCase& one, const Trajectory& found) const {
     for (const MeshReference& mesh : result_.reference.meshes) {
       if (mesh.element != row.element || mesh.level != one.level) continue;
@@ -249,7 +251,7 @@ class Study {
   const StudyWatch& watch_;
   Clock::time_point start_ = Clock::now();
   StudyResult result_;
-  std::map<std::string, std::vector<StudyLevel>> levels_;  // by elements
+  std::map<std::string, std::vector<StudyLevel>> levels_;  // by kind of elements
   std::vector<StudyCase> cases_;
   Embedding probes_;
   GrowthOfCycles growth_{problem_};
@@ -290,7 +292,7 @@ StudyResult study(const Problem& problem, const StudyOptions& options, const Stu
 
 namespace {
 
-constexpr double resolution = 0.1;  // of an error: what the reference's own may be
+constexpr double resolution = 0.1;  // largest own error of the reference over an error it resolves
 
 bool completed(const StudyRow& row) {
   return row.status == "completed" && row.judged() && row.wall_time;

@@ -17,19 +17,20 @@ namespace {
 
 using Step = std::optional<double>;  // none: auto
 
-constexpr const char* coarse_integrator = "symplectic_euler";  // where coarse/LEVEL names none
+constexpr const char* coarse_integrator = "symplectic_euler";  // default of coarse/LEVEL
 
-// of the finest critical step, the most telling first
+// macro steps over the finest critical step, the most informative first
 constexpr double implicit_factors[] = {16, 4, 64};
-constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
-constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
-// forces of level 0, about: 2.7 to 10 on organs
+constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // for cycles of levels
+constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // for him, besides its own 8
+// cost of a step of him in forces of level 0, about: 2.7 to 10 on organs
 constexpr double him_step_cost = 4;
-constexpr int usual_iterations = 2;  // of Newton's method in a stage
-// to 1e-6, about: the root of the condition number grows with the step
+constexpr int usual_iterations = 2;  // iterations of Newton's method per stage
+// iterations of conjugate gradients to 1e-6 over macro step / critical step, about. The root of the
+// condition number grows with the step
 constexpr double cg_iterations_per_factor = 12;
 
-// The limit of an explicit integrator, undamped; 0 where it has none of this kind
+// Returns the step limit of an explicit integrator without damping; 0 where it is never stable
 double limit_of(const std::string& integrator, double symplectic_limit) {
   double radius = 0;
   Integrators::visit(integrator, [&](auto member) {
@@ -80,7 +81,7 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   }
 }
 
-// What all else is compared with
+// Returns whether other cases are compared with this one
 bool is_control(const StudyCase& one) {
   const std::string& integrator = one.integration.integrator.front();
   return integrator == coarse_integrator ||
@@ -97,7 +98,7 @@ void step_alone(IntegrationOptions& o, const std::string& integrator) {
   o.distribution = "equal", o.shares = {};
 }
 
-// him and auto take no settings of levels
+// Sets the options of cycle him or auto, which take no settings of levels
 void step_together(IntegrationOptions& o, const std::string& cycle, const StudyCase& one) {
   const IntegrationOptions plain;
   o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps,
@@ -170,7 +171,7 @@ struct Builder {
   void add_cycle(const StudyCase& one) {
     if (!integrates_coarse_levels(one.integration.cycle)) return add_him(one);
     int rank = (one.distribution == "critical" ? 4 : 6) + (one.variant.empty() ? 0 : 1);
-    // levels alone first: to what is off in space, cycles add errors in time
+    // levels alone are run first: cycles add errors in time to the same errors in space
     if (options.truth) rank += 6;
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
@@ -181,7 +182,7 @@ struct Builder {
     for (const double factor : cycle_factors) add(one, factor * levels[0].critical_step, ++rank);
   }
 
-  // the problem's own macro step
+  // Adds the case with the problem's own macro step
   void add_own(const StudyCase& one) {
     if (problem.integration.macro_step) add(one, problem.integration.macro_step, 5);
   }
@@ -203,7 +204,7 @@ StudyLevel study_level(const Problem& problem, int level) {
   StudyCase alone;
   alone.level = level;
   Problem one = problem_of(problem, alone);
-  one.body.loads.clear();  // a coarse mesh may have no vertex where one acts: its own run says so
+  one.body.loads.clear();  // a coarse mesh may lack vertices where a load acts: its run reports it
   const LevelReport report = Simulation<B>(one).levels().front();
   return {report.tets, report.critical_step};
 }
@@ -251,7 +252,7 @@ Problem problem_of(const Problem& problem, const StudyCase& one) {
   Problem result = with_element(problem, one.element);
   result.integration = one.integration;
   if (one.integration.cycle != "single") return result;
-  // implicit ones have those below for multigrid
+  // an implicit integrator keeps the coarser levels for multigrid
   const bool alone = is_explicit(one.integration.integrator.front());
   keep_levels(result.body, static_cast<std::size_t>(one.level),
               alone ? 1 : problem.body.levels.size());

@@ -8,8 +8,8 @@
 
 namespace plica {
 
-/// Settings put over a problem's own for cycles that are named with it; what is empty stays. See
-/// IntegrationOptions.
+/// Settings that replace a problem's own for cycles named with this variant; an empty one keeps the
+/// problem's. See IntegrationOptions.
 struct StudyVariant {
   std::optional<double> shift_to_coarsest;
   std::optional<std::vector<std::string>> integrator;
@@ -20,122 +20,133 @@ struct StudyVariant {
   std::optional<std::string> outside;
 };
 
+/// Returns the options with the settings of a variant.
 IntegrationOptions with(IntegrationOptions options, const StudyVariant& variant);
 
-/// The same run, as far as variants, cycles and steps can tell: a threshold differs only where
-/// mappings switch.
+/// Returns whether two options give the same run, by cycle, steps and the settings of variants. A
+/// switch threshold is compared only where mappings switch.
 bool steps_alike(const IntegrationOptions& a, const IntegrationOptions& b);
 
-/// "cycle/rsv/critical+hybrid", without what is empty.
+/// Returns "METHOD/DISTRIBUTION+VARIANT" without its empty parts: "cycle/rsv/critical+hybrid".
 std::string study_label(const std::string& method, const std::string& distribution,
                         const std::string& variant);
 
-/// How the truth is found: see make_truth().
+/// Settings of make_truth().
 struct TruthOptions {
-  std::optional<int> refinements;  ///< of level 0's mesh, 1 or more; none: 2, or 1 where half the
-                                   ///< budget is too little for it
-  /// of the second family's mesh, see jittered(); none: it has linear elements
+  /// number of refinements of level 0's mesh, >= 1; none: 2, or 1 where two do not fit half the
+  /// budget
+  std::optional<int> refinements;
+  /// jitter of the second family's mesh, see jittered(); none: that family has linear elements
   std::optional<double> jitter;
 };
 
-/// What a study compares.
+/// Methods that a study compares, and its settings.
 struct StudyOptions {
   double duration = 1;  ///< simulated time [s] > 0
-  /// times, evenly over the duration, at which states are compared
+  /// number of times, evenly over the duration, at which states are compared
   int samples = 50;
-  /// of study_methods(), or a family: single, coarse, cycle; a cycle's name may be followed by
-  /// /DISTRIBUTION, then by +VARIANT; empty: the default set
+  /// names of study_methods(), or of families: single, coarse, cycle. /DISTRIBUTION, then +VARIANT,
+  /// may follow a cycle's name. Empty: the default set
   std::vector<std::string> methods;
-  std::map<std::string, StudyVariant> variants;  ///< by name; the family `cycle` has each of them
+  std::map<std::string, StudyVariant> variants;  ///< by name; family `cycle` has each of them
   /// [s]; none: auto; empty: multiples of the finest critical step
   std::vector<std::optional<double>> macro_steps;
   std::vector<std::string> precision = {"double"};
-  std::vector<int> threads;  ///< empty: all there are
+  std::vector<int> threads;  ///< empty: all threads
   int timed_runs = 3;        ///< per row, after the warm-up; see timed_runs_of()
-  bool growth = false;       ///< of small motions by each cycle too: see GrowthOfCycles
-  /// points of the finest level at rest [m] with errors of their own
+  bool growth = false;       ///< true: growth by each cycle too, see GrowthOfCycles
+  /// points of the finest level at rest, by name, whose errors are reported [m]
   std::map<std::string, Point> probes;
-  /// wall time of all of it [s]; rows that do not fit are left out, and listed
+  /// wall time of the whole study [s]; rows that do not fit are left out, and listed
   std::optional<double> budget;
-  std::string reference_integrator = "rk4";  ///< of the finest level alone
-  /// its own error, displacement, above which both steps are halved, once
+  std::string reference_integrator = "rk4";  ///< integrator of the reference
+  /// own error (displacement) of the reference above which both its steps are halved, once
   double reference_error = 1e-5;
-  /// its coarser step over the finest level's critical step; the other is half
+  /// longer step of the reference over the finest level's critical step; the other is half of it
   double reference_step = 1;
-  std::optional<TruthOptions> truth;  ///< errors against it instead of against level 0's mesh
-  /// of element_families(); empty: the problem's own, with truth all of them
+  std::optional<TruthOptions> truth;  ///< none: errors are against level 0's mesh
+  /// names of element_families(); empty: the problem's own, with truth all
   std::vector<std::string> elements;
-  std::optional<TetMesh> finer;  ///< a finer mesh of the body, for a second reference: the finest
-                                 ///< level's error in space
+  /// finer mesh of the body for a second reference, which gives the finest level's error in space
+  std::optional<TetMesh> finer;
 };
 
-/// A level alone, as the study needs to know it.
+/// Properties of a level alone that a study needs.
 struct StudyLevel {
   int tets = 0;
-  double critical_step = 0;  ///< of symplectic Euler [s]
+  double critical_step = 0;  ///< critical step of symplectic Euler [s]
 };
 
-/// One run of a study: how which levels are integrated, in which precision, by how many threads.
+/// One run of a study: method and levels, precision and number of threads.
 struct StudyCase {
   /// single/INTEGRATOR, coarse/LEVEL, coarse/LEVEL/INTEGRATOR or cycle/NAME
   std::string method;
-  std::string distribution;  ///< of a cycle; of cycle/auto its error class
-  std::string variant;       ///< of a cycle; empty: as the problem says
+  std::string distribution;  ///< a cycle's; for cycle/auto its error class
+  std::string variant;       ///< a cycle's; empty: the problem's own settings
   std::string element;       ///< empty: the problem's own
   std::string precision;
   int threads = 0;
-  int level = 0;  ///< that is the run's finest
+  int level = 0;  ///< finest level of the run
   IntegrationOptions integration;
-  int rank = 0;          ///< the lower, the more there is to learn from it
-  bool control = false;  ///< what all else is compared with: see study_cases()
-  /// of tetrahedra, over the duration; 0 where its set-up will refuse
+  int rank = 0;          ///< order of the runs: low ranks are run first
+  bool control = false;  ///< true where others are compared with it: see study_cases()
+  /// predicted evaluations of tetrahedra over the duration; 0 where the set-up will refuse
   double predicted_evaluations = 0;
-  std::string label() const;  ///< "cycle/rsv/critical", "cycle/rsv/critical+hybrid"
-  std::string key() const;    ///< what tells it from the study's other cases
+  std::string label() const;  ///< returns for example "cycle/rsv/critical+hybrid"
+  std::string key() const;    ///< returns a text that is unique among the study's cases
 };
 
-/// Every method there is for this problem: single/ each integrator, coarse/ each coarser level by
-/// symplectic Euler or by each other integrator, cycle/ each cycle of several levels.
+/// Returns every method for this problem. These are single/ each integrator, coarse/ each coarser
+/// level by symplectic Euler or by each other integrator, and cycle/ each cycle of several levels.
 std::vector<std::string> study_methods(const Problem& problem);
 
-/// Sets a level up alone. InputError where that fails or nothing limits the step.
+/// Sets up a level alone and returns its properties. Throws InputError where that fails or nothing
+/// limits the step.
 StudyLevel study_level(const Problem& problem, int level);
 
-/// Likewise each of them.
+/// Sets up each level alone and returns the properties, finest first.
 std::vector<StudyLevel> study_levels(const Problem& problem);
 
-/// All runs, in the order of their names. The default: the finest level alone, explicit at 0.9 and
-/// 0.5 of its limit and implicit at 4, 16 and 64 times it; each coarser level alone at 0.9 of its
-/// own; every cycle with every distribution at 1, 2, 4, 8 and 16 times the finest level's limit, at
-/// `auto`, and at the problem's own macro step; him at 2 to 32 times; auto, within one per cent.
-/// Cycles keep the problem's integrators, sub-steps and all else but for what their variant
-/// changes; one that changes nothing that the cycle uses is not run again. Of the options' macro
-/// steps an explicit level alone takes those below its limit. Controls, of the first precision and
-/// number of threads, are the finest level alone, explicit at 0.9 of its limit and implicit at the
-/// first of its steps, and each coarser level alone. InputError for an unknown method, with the
-/// nearest.
+/// Returns all runs of a study, in the order of the methods' names. The default runs are:
+/// * the finest level alone, explicit at 0.9 and 0.5 of its limit and implicit at 4, 16 and 64
+/// times
+///   the critical step;
+/// * each coarser level alone at 0.9 of its own limit;
+/// * every cycle with every distribution at 1, 2, 4, 8 and 16 times the finest level's limit, at
+///   `auto`, and at the problem's own macro step;
+/// * him at 2 to 32 times the finest level's limit;
+/// * auto, within one per cent.
+///
+/// Cycles keep the problem's integrators, sub-steps and other settings, except those that their
+/// variant changes. A variant that changes nothing that the cycle uses is not run again. From the
+/// options' macro steps, an explicit level alone takes those below its limit.
+///
+/// Controls have the first precision and the first number of threads. They are the finest level
+/// alone, explicit at 0.9 of its limit and implicit at the first of its steps, and each coarser
+/// level alone. Throws InputError for an unknown method; the message has the nearest name.
 std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
                                    const std::vector<StudyLevel>& levels);
 
-/// The problem that is to be run for it. A level alone starts where it would be under the finest
-/// one.
+/// Returns the problem to run for a case. A level alone starts at the place that it has under the
+/// finest level.
 Problem problem_of(const Problem& problem, const StudyCase& one);
 
-/// InputError where a name of options.methods is not in study_methods(), or a variant is no set-up:
-/// needs no meshes' critical steps.
+/// Throws InputError where a name of options.methods is not in study_methods(), or a variant makes
+/// the problem invalid. Needs no critical steps of meshes.
 void check_study(const Problem& problem, const StudyOptions& options);
 
+/// Method that the options name, with its distribution and variant.
 struct ChosenMethod {
   std::string method;
-  std::string distribution;  ///< of a cycle
-  std::string variant;       ///< of a cycle
+  std::string distribution;  ///< a cycle's; else empty
+  std::string variant;       ///< a cycle's; else empty
 };
 
-/// The methods of the options, families, distributions and variants spelt out, none twice.
-/// InputError for an unknown name.
+/// Returns the methods of the options, with families, distributions and variants written out, none
+/// twice. Throws InputError for an unknown name.
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options);
 
-/// How that method is run: all of a case but its macro step, precision and threads.
+/// Returns the case of a method, without its macro step, precision and threads.
 StudyCase study_case(const Problem& problem, const StudyOptions& options,
                      const ChosenMethod& chosen);
 

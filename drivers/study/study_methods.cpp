@@ -9,14 +9,14 @@
 #include <plica/drivers/study/study_case.hpp>
 #include <tuple>
 
-// What methods there are, and which ones the options name.
+// All methods of a study, and those that the options name.
 namespace plica {
 
 namespace {
 
 bool has_switch(const std::string& cycle) { return stepper_needs(cycle).drift_limits; }
 
-// One for all levels, or one each: do they say the same?
+// Returns whether two lists are equal per level; a list of one value holds for all levels.
 template <class T>
 bool alike_per_level(const std::vector<T>& a, const std::vector<T>& b) {
   if (a.size() == b.size()) return a == b;
@@ -60,12 +60,12 @@ std::string study_label(const std::string& method, const std::string& distributi
 
 namespace {
 
-const std::string usual_class = "balanced";  // of cycle/auto, in the family
+const std::string usual_class = "balanced";  // error class of cycle/auto in the family
 const std::vector<std::string> families = {"single", "coarse", "cycle"};
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('/')); }
 
-// "cycle/rsv/equal+hybrid" in three
+// Splits a name such as "cycle/rsv/equal+hybrid" into method, distribution and variant
 ChosenMethod split(const std::string& name) {
   const std::size_t plus = name.find('+');
   const std::string variant = plus == std::string::npos ? "" : name.substr(plus + 1),
@@ -89,19 +89,20 @@ void add(std::vector<ChosenMethod>& chosen, const ChosenMethod& one) {
   if (std::ranges::none_of(chosen, same)) chosen.push_back(one);
 }
 
-// Whether its levels divide the macro step
+// Returns whether the levels of a cycle share the macro step among them
 bool shares_step(const ChosenMethod& one) {
   return integrates_coarse_levels(one.method.substr(one.method.find('/') + 1));
 }
 
 bool is_chosen_by_trials(const ChosenMethod& one) { return one.method == "cycle/auto"; }
 
-// coarse/1/rk4: the family has each level by one integrator
+// Returns whether a method is such as coarse/1/rk4, which the family `coarse` does not include
 bool names_coarse_integrator(const std::string& method) {
   return family_of(method) == "coarse" && std::ranges::count(method, '/') > 1;
 }
 
-// A cycle without a distribution means each of them, with the problem's own list if it has one
+// Adds a method; a cycle without a distribution is added with each of them. These include the
+// problem's own list of shares where it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
   if (is_chosen_by_trials(one) && one.distribution.empty()) {
     for (const std::string& error_class : names(error_classes()))
@@ -116,7 +117,7 @@ void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const C
     add(chosen, {one.method, "custom", one.variant});
 }
 
-// `cycle` has every variant, `cycle+hybrid` that one
+// Adds the methods of a family: `cycle` with every variant, `cycle+hybrid` with that variant only
 void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem,
                 const StudyOptions& options, const ChosenMethod& family) {
   for (const std::string& method : study_methods(problem)) {
@@ -199,7 +200,8 @@ std::vector<std::string> study_methods(const Problem& problem) {
 
 namespace {
 
-// Against the truth: each level alone by every integrator that is stable undamped, then the cycles
+// Returns the default methods of a study with truth. They are each level alone by every integrator
+// that is stable without damping, then the cycles
 std::vector<std::string> all_alone(const Problem& problem) {
   std::vector<std::string> stable, all;
   Integrators::for_each([&](auto member) {

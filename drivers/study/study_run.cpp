@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Exec = Kokkos::DefaultExecutionSpace;
 
-constexpr double short_run = 0.2;  // [s]
+constexpr double short_run = 0.2;  // wall time below which a run is short [s]
 constexpr int runs_if_short = 5;
 
 double since(Clock::time_point start) {
@@ -36,7 +36,7 @@ E instance(int threads) {
                    " runs with all it has; leave study.threads out");
 }
 
-// Nothing takes energy out or brings it in, other than gravity
+// Returns whether only gravity does work on the body
 bool keeps_energy(const Problem& p) {
   return p.body.loads.empty() && p.body.prescribed.empty() && !damps_by_mass(p.body) &&
          !damps_by_stiffness(p.body) && !has_contact(p);
@@ -79,7 +79,7 @@ class Measured {
   }
 
  private:
-  // One macro step; false where the run ends here
+  // Takes one macro step; returns false where the run ends here
   bool step(double& wall_time) {
     const auto start = Clock::now();
     const auto diagnosis = simulation_.step_checked();
@@ -137,7 +137,7 @@ class Measured {
   SavedState at_start_;
   StudyRun result_;
   std::vector<double> wall_times_;
-  std::pair<int, int> part_;  // which of how many runs
+  std::pair<int, int> part_;  // number of this run, number of all
 };
 
 template <class B>
@@ -170,7 +170,7 @@ namespace {
 constexpr int most_shortenings = 3;
 
 struct Pair {
-  StudyRun coarse, fine;  // in time
+  StudyRun coarse, fine;  // at the longer and at the shorter step
   bool stopped() const { return coarse.status == "stopped" || fine.status == "stopped"; }
 };
 
@@ -231,7 +231,7 @@ Pair run_both(const Problem& problem, const StudyOptions& options, double critic
   return runs;
 }
 
-// Half the length, half the limit, about
+// Adds the reference on the finer mesh. Edges half as long have about half the critical step
 void add_finer(StudyReference& reference, const Problem& problem, const StudyOptions& options,
                const std::function<bool(double)>& go_on) {
   Problem finer = problem;

@@ -11,78 +11,83 @@
 
 namespace plica {
 
-/// How a problem is to be run and measured.
+/// Settings of study_run().
 struct StudyRunOptions {
   double duration = 0;               ///< [s] > 0
-  std::vector<double> sample_times;  ///< within the duration [s]
+  std::vector<double> sample_times;  ///< times at which states are sampled, within the duration [s]
   std::string precision = "double";  ///< float | double
-  int threads = 0;                   ///< of the default execution space; 0: all that it has
-  int timed_runs = 3;                ///< 0: only the sampled run, which is the one that is timed
-  const Embedding* at = nullptr;     ///< points of level 0 that are sampled; null: its vertices
-  std::function<bool(double)> go_on =
-      {};  ///< asked from time to time with the part of the work that is done; false ends the run
+  int threads = 0;                   ///< threads of the default execution space; 0: all
+  int timed_runs = 3;                ///< 0: only the sampled run, which is timed itself
+  const Embedding* at = nullptr;     ///< points of level 0 to sample; null: its vertices
+  /// called several times a second with the part of the work that is done; false ends the run
+  std::function<bool(double)> go_on = {};
 };
 
+/// Result of study_run().
 struct StudyRun {
   std::string status = "completed";  ///< completed | diverged | refused | stopped
-  std::string reason;                ///< diagnosis or message, where it is not completed
+  std::string reason;                ///< diagnosis or message, where not completed
   double macro_step = 0;             ///< [s]
-  long macro_steps = 0;              ///< for the whole duration
-  double reached = 0;                ///< simulated [s]
-  Trajectory trajectory;             ///< level 0's, where it is completed
-  double setup_time = 0;             ///< [s]
-  /// of the steps and their checks: the median of the timed runs [s]
+  long macro_steps = 0;              ///< number for the whole duration
+  double reached = 0;                ///< simulated time [s]
+  Trajectory trajectory;             ///< motion of level 0, where completed
+  double setup_time = 0;             ///< wall time [s]
+  /// wall time of the steps and their checks, median of the timed runs [s]
   double wall_time = 0;
-  double wall_time_spread = 0;         ///< the longest less the shortest of them [s]
-  int timed_runs = 0;                  ///< see timed_runs_of()
-  long tet_evaluations = 0;            ///< forces of all levels' tetrahedra, in one run
-  std::optional<double> energy_drift;  ///< (at the end - at the start) / the most there was of
-                                       ///< kinetic, elastic and contact energy; none where loads,
-                                       ///< given motions, damping or contact do unknown work
+  double wall_time_spread = 0;  ///< longest less shortest wall time of the runs [s]
+  int timed_runs = 0;           ///< see timed_runs_of()
+  long tet_evaluations = 0;     ///< force evaluations of all levels, in one run
+  /// change of the total energy over the maximum of kinetic, elastic and contact energy together.
+  /// None where loads, given motions, damping or contact do unknown work
+  std::optional<double> energy_drift;
 };
 
-/// How often a run that takes so long [s] is timed where `asked` is asked for: short ones at least
-/// five times.
+/// Returns how often a run is timed. Short runs are timed at least five times.
+/// @param wall_time  of one run [s]
+/// @param asked      number asked for; 0 stays 0
 int timed_runs_of(double wall_time, int asked);
 
-/// InputError where the default execution space cannot run with so many threads of its own; 0: all.
+/// Throws InputError where the default execution space cannot run with this number of threads; 0:
+/// all.
 void check_threads(int threads);
 
-/// Runs the problem on Kokkos' default execution space: once to warm up, sampling its states, then
-/// timed, from the same start. A set-up that refuses is a result too. Whole macro steps: the last
-/// one may reach beyond the duration. InputError for an unknown precision, or more threads than
-/// there are.
+/// Runs the problem on Kokkos' default execution space. The first run warms up and samples the
+/// states; timed runs from the same start follow. A set-up that refuses is a result too. Macro
+/// steps are whole: the last one may reach beyond the duration. Throws InputError for an unknown
+/// precision, or for more threads than there are.
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options);
 
-/// What errors are measured against: the finest level alone, in double, at a small step that hits
-/// every sampling time, whose own error is how far it is from a run at twice that step: more than
-/// it really is; or the truth, see make_truth().
+/// Motion against which errors are measured. It is the finest level alone, in double, at a small
+/// step that hits every sampling time, or the truth, see make_truth(). The own error of the former
+/// is its distance from a run at twice the step, which is more than its real error.
 struct StudyReference {
   std::string method;
-  double macro_step = 0;                         ///< [s]
-  double critical_step = 0;                      ///< of the finest level under symplectic Euler [s]
+  double macro_step = 0;  ///< [s]
+  /// critical step of the finest level under symplectic Euler [s]
+  double critical_step = 0;
   double own_error = 0, own_error_velocity = 0;  ///< fractions
-  double wall_time = 0;                          ///< of its runs [s]
-  double seconds_per_evaluation = 0;             ///< of a tetrahedron
-  std::optional<double> space_error;             ///< to the finer mesh's reference, displacement
+  double wall_time = 0;                          ///< wall time of its runs [s]
+  double seconds_per_evaluation = 0;             ///< wall time per force of a tetrahedron [s]
+  std::optional<double> space_error;             ///< displacement, to the finer mesh's reference
   Trajectory trajectory;                         ///< empty: there is none yet
-  /// of the finer mesh's reference, at the finest level's vertices
+  /// motion of the finer mesh's reference, at the finest level's vertices
   std::optional<Trajectory> finer;
   std::optional<Truth> truth;  ///< none: errors are those in time
-  /// the truth's, of the options' probes in their order
+  /// true motion of the options' probes, in their order
   Trajectory probes;
-  std::vector<MeshReference> meshes;  ///< with truth, of each kind of elements and level
+  std::vector<MeshReference> meshes;  ///< with truth: one per kind of elements and level
 };
 
-/// Level 0 alone by that integrator, in double, at a step that hits every sampling time and is no
-/// longer than `longest_step` [s]; half of it, and half of that, where it does not come to its end.
-/// InputError where it never does; stopped where go_on says so.
+/// Runs level 0 alone with an integrator, in double, at a step that hits every sampling time. The
+/// step is halved up to three times where the run does not complete. Throws InputError where it
+/// never completes; the status is `stopped` where go_on ended it.
+/// @param longest_step  maximum step [s]
 StudyRun run_to_samples(const Problem& problem, const StudyOptions& options,
                         const std::string& integrator, double longest_step,
                         const std::function<bool(double)>& go_on, const Embedding* at = nullptr);
 
-/// Runs it, and the one on options.finer where there is one. Empty trajectory where go_on ended it.
-/// InputError where it diverges, also at an eighth of the step.
+/// Computes the reference, and that on options.finer where there is one. The trajectory is empty
+/// where go_on ended it. Throws InputError where the run diverges even at an eighth of the step.
 StudyReference make_reference(const Problem& problem, const StudyOptions& options,
                               double critical_step, const std::function<bool(double)>& go_on);
 

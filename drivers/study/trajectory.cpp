@@ -8,8 +8,8 @@ namespace plica {
 
 namespace {
 
-constexpr long fit_points = 4;      // of the polynomial
-constexpr double same_time = 1e-9;  // of a step
+constexpr long fit_points = 4;      // points of the polynomial
+constexpr double same_time = 1e-9;  // difference of equal times, over a step
 
 double lagrange_weight(double x, long first, long count, long i) {
   double weight = 1;
@@ -75,11 +75,11 @@ Trajectory interpolated(const Trajectory& trajectory, const Embedding& embedding
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of the body's size
+constexpr double rounding = 1e-12;  // motion that is rounding, over the body's size
 
 struct Squares {
   std::vector<double> difference;  // per vertex, summed over time
-  double reference = 0;            // of all vertices
+  double reference = 0;            // sum over all vertices and times
 
   Squares(const std::vector<std::vector<Point>>& field, const std::vector<std::vector<Point>>& from)
       : difference(from.front().size(), 0.0) {

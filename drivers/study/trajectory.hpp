@@ -7,26 +7,28 @@
 
 namespace plica {
 
-/// Level 0's motion at sampling times: [sample][vertex], displacement from the placed rest mesh [m]
-/// and velocity [m/s].
+/// Motion of level 0 at sampling times.
 struct Trajectory {
-  std::vector<double> times;  ///< [s]
+  std::vector<double> times;  ///< sampling times [s]
+  /// `[sample][vertex]`: displacement from the placed rest mesh [m], and velocity [m/s]
   std::vector<std::vector<Point>> u, v;
 };
 
-/// `samples` times, evenly over (0, duration]. [s]
+/// Returns `samples` times, evenly over (0, duration] [s].
 std::vector<double> sampling_times(double duration, int samples);
 
-/// Fills a trajectory from the states of a run with steps of one length, of which it keeps none: a
-/// sampling time between two states is interpolated by the polynomial of degree 3 through the two
-/// before and the two after it (at the ends the four nearest; fewer where the run has fewer),
-/// Lagrange's form. A sampling time that a step hits is that state.
+/// Builds a trajectory from the states of a run with steps of one length, without keeping them. A
+/// sampling time between two states is interpolated by the polynomial of degree 3 through two
+/// states before and two after it, in Lagrange's form. At the ends of the run the four nearest
+/// states are taken, and fewer where the run has fewer. At a sampling time that a step hits, the
+/// state itself is taken.
 class TrajectorySampler {
  public:
-  /// @param times  ascending, none beyond `steps` steps of `step` [s]
+  /// Plans the interpolation for a run of `steps` steps of `step` [s].
+  /// @param times  sampling times, ascending, none beyond the run's end [s]
   TrajectorySampler(const std::vector<double>& times, double step, long steps);
   bool wants(long step) const { return next_ < terms_.size() && terms_[next_].step == step; }
-  /// The state after that many steps; to be called for each that it wants, in order.
+  /// Adds the state after `step` steps; call it for each step that wants() asks for, in order.
   void add(long step, const std::vector<Point>& u, const std::vector<Point>& v);
   Trajectory take() { return std::move(trajectory_); }
 
@@ -36,42 +38,43 @@ class TrajectorySampler {
     std::size_t sample;
     double weight;
   };
-  std::vector<Term> terms_;  // by step
+  std::vector<Term> terms_;  // sorted by step
   std::size_t next_ = 0;
   Trajectory trajectory_;
 };
 
-/// Values of points that hang on the field's mesh.
+/// Returns the values of a field at points that are embedded in its mesh.
 std::vector<Point> interpolated(const std::vector<Point>& field, const Embedding& embedding);
 
-/// The motion of points that hang on the trajectory's mesh.
+/// Returns the motion of points that are embedded in the trajectory's mesh.
 Trajectory interpolated(const Trajectory& trajectory, const Embedding& embedding);
 
-/// How far one trajectory is from another, as fractions.
+/// Differences of a trajectory (u) from a reference (r), as fractions.
 struct StudyErrors {
   double displacement = 0;  ///< |u - r| / |r|, both over all vertices and sampling times (L2)
-  double velocity = 0;      ///< the same of velocities
-  double worst_vertex = 0;  ///< the largest over vertices of |u - r| over time, to the vertices'
-                            ///< root mean square of |r|
+  double velocity = 0;      ///< relative difference of velocities, in the same norm (L2)
+  /// largest |u - r| of a vertex over all times, over the root mean square of the vertices' |r|
+  double worst_vertex = 0;
 };
 
-/// InputError where nothing of the body moves by more than rounding: then there is nothing to
-/// measure against.
+/// Throws InputError where no vertex moves by more than rounding, since no relative error exists
+/// then.
 void expect_motion(const Trajectory& trajectory, const TetMesh& mesh);
 
-/// Of trajectories at the same times and vertices.
+/// Returns the errors of a trajectory; the reference has the same times and vertices.
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference);
 
-/// |a - b| / |size| of displacements, all over all vertices and sampling times (L2).
+/// Returns |a - b| / |size| of displacements, L2 norms over all vertices and sampling times.
 double difference(const Trajectory& a, const Trajectory& b, const Trajectory& size);
 
-/// |u - r| / |r| over all sampling times of one vertex; none where it stays at rest in the reference.
+/// Returns |u - r| / |r| of one vertex over all sampling times; none where it stays at rest in the
+/// reference.
 std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference,
                                std::size_t vertex);
 
-/// How far it is behind the reference on the mean [s], < 0: ahead. The s that makes u = r - s v
-/// most true, by least squares over all vertices and sampling times, with the reference's velocity
-/// v: means something while small beside the motion's period.
+/// Returns the mean delay behind the reference [s]; < 0: ahead. It is the s that fits u = r - s v
+/// best, by least squares over all vertices and sampling times; v is the reference's velocity. The
+/// value is meaningful while small compared with the motion's period.
 double delay_of(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace plica

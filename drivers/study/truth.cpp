@@ -19,13 +19,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* reference_integrator = "central_difference";  // order 2, one force a step
-// what a step is of its mesh's limit
+// step over the limit of its mesh
 constexpr double of_limit = 0.9;
-constexpr double of_budget = 0.5;  // that two refinements may take
-constexpr double growth = 18;  // of a run's time by a refinement: 8 times the elements, twice the
-                               // steps, a little for memory
-constexpr double time_converged = 1e-4;  // what a level's own error in time may be
-constexpr double most_tets = 4e6;        // without a number of refinements
+constexpr double of_budget = 0.5;  // largest part of the budget for two refinements
+// growth of a run's wall time by a refinement: 8 times the elements, twice the steps, a little for
+// memory
+constexpr double growth = 18;
+constexpr double time_converged = 1e-4;  // largest own error in time of a level
+constexpr double most_tets = 4e6;        // maximum where no number of refinements is given
 
 // Motion of level 0's vertices and of the probes, on one mesh
 struct Motions {
@@ -33,13 +34,13 @@ struct Motions {
   TruthMesh mesh;
 };
 
-// Meshes of one kind
+// Meshes of one kind and the motions on them
 struct Family {
   std::string name, element;
   TetMesh mesh;  // the finest so far
   std::vector<Motions> motions;
-  std::optional<Motions> coarser;  // of the mesh that level 0 refines; at its own vertices
-  std::vector<int> common;         // per vertex that the three finest share its number in level 0
+  std::optional<Motions> coarser;  // on the mesh that level 0 refines, at its own vertices
+  std::vector<int> common;         // level 0's number of each vertex of that mesh
 
   double seconds() const { return motions.back().mesh.wall_time; }
 };
@@ -60,8 +61,8 @@ TetMesh finer_of(const TetMesh& mesh) {
   return reordered(fine, locality_order(fine));
 }
 
-// Level 0 on another mesh, with contact of the same stiffness and damping: these go with the mesh's
-// edges
+// Returns the problem of level 0 on another mesh. The contact scales are changed so that stiffness
+// and damping, which depend on the mesh's edges, stay the same
 Problem on_mesh(const Problem& problem, const std::string& element, const TetMesh& mesh) {
   Problem one = with_element(problem, element);
   const double ratio = mean_edge_length(mesh) / mean_edge_length(problem.body.levels.front());
@@ -100,8 +101,8 @@ class TruthMaker {
     return *budget_ - std::chrono::duration<double>(Clock::now() - start_).count();
   }
 
-  // Every level with every kind of elements, converged in time; what remains of the first says what
-  // an evaluation takes
+  // Runs every level with every kind of elements, converged in time. Returns the reference of the
+  // first, which has the wall time of an evaluation
   StudyReference converged_levels() {
     StudyReference first;
     const auto& levels = problem_.body.levels;
@@ -158,7 +159,7 @@ class TruthMaker {
     return both;
   }
 
-  // Whether both families can be refined once more
+  // Returns whether both families can be refined once more
   bool affordable(const std::vector<Family>& both, int refinements) const {
     const auto& asked = options_.truth->refinements;
     if (asked) return refinements < *asked;
@@ -188,8 +189,8 @@ class TruthMaker {
     const Limit limit = limit_of(both[0], 2), other = limit_of(both[1], limit.used_order);
     Truth truth{report(both[0], limit, limit), report(both[1], other, limit), 0, 0};
     truth.difference = difference(other.trajectory, limit.trajectory, limit.trajectory);
-    // Steps are as much shorter as edges, the integrator is of order 2, and it is compared with
-    // half the step
+    // Steps shrink like edges and the integrator is of order 2: a refinement divides the error in
+    // time by 4. A difference from half the step is 3/4 of the error
     const auto converged = std::ranges::find_if(meshes_, [&](const MeshReference& m) {
       return m.element == both[0].element && m.level == 0;
     });
@@ -200,7 +201,7 @@ class TruthMaker {
     fill(reference, truth, both[0], limit);
   }
 
-  // Two refined meshes and level 1 are three where level 0 refines that
+  // Adds level 1 as the third mesh of a family of two, where level 0 is a refinement of it
   void add_coarser(std::vector<Family>& both) {
     const auto& levels = problem_.body.levels;
     if (levels.size() < 2 || !is_refinement_of(levels[0], levels[1])) return;
@@ -211,7 +212,7 @@ class TruthMaker {
       common.push_back(there.vertices[a][static_cast<std::size_t>(largest)]);
     }
     for (Family& family : both) {
-      if (family.name != family.element || stopped_) continue;  // jittered ones have other meshes
+      if (family.name != family.element || stopped_) continue;  // jittered meshes are others
       family.common = common;
       family.coarser = run(family, levels[1], levels[1].vertices);
     }

@@ -6,24 +6,29 @@
 
 namespace plica {
 
-/// Told what is run and how much of it is done; false stops.
+/// Function called with the name of the run and the part of it that is done; false stops.
 using TruthWatch = std::function<bool(const std::string& doing, double part)>;
 
-/// What the body really does, at level 0's vertices and the options' probes: Richardson's limit of
-/// its motion on uniform refinements of level 0's mesh, the steps as much finer as the edges, so
-/// that the errors in space and time shrink together. Where level 1 is what level 0 is a refinement
-/// of, it is one of these meshes. Its elements are the last of element_families(); the limit of the
-/// first, or with a jitter that of a jittered mesh, checks it. Beside it every level with every
-/// kind of elements, converged in time.
+/// Returns the best known motion of the body, at level 0's vertices and the options' probes.
 ///
-/// Contact is as stiff as on level 0. What a scene chooses by place (loads, parts, regions) is
-/// chosen anew on each mesh; what the mesh names follows it; round bodies are those that level 0's
-/// facets enclose.
+/// It is Richardson's limit of the motion on uniform refinements of level 0's mesh. The steps are
+/// refined like the edges, so that the errors in space and time shrink together. Where level 0 is a
+/// refinement of level 1, level 1 is one of these meshes. The elements are the last of
+/// element_families(). The limit of the first of element_families(), or with a jitter that of a
+/// jittered mesh, checks the result. The result also has every level with every kind of elements,
+/// converged in time.
 ///
-/// @param budget  wall time for it [s]: of two refinements the second is left out where both take
-/// more than half of that; none: no limit
-/// @return        its own error is Truth::error(); an empty trajectory where the watch stopped it. InputError where not even one
-///                refinement fits the budget, or a run does not come to its end at an eighth of its step
+/// Contact is as stiff as on level 0. Vertices that a scene selects by place (loads, parts,
+/// regions) are selected again on each mesh; named sets follow the mesh. A round body is the one
+/// that level 0's facets enclose.
+///
+/// Throws InputError where not even one refinement fits the budget. It also does where a run does
+/// not complete at an eighth of its step.
+///
+/// @param budget  wall time for all of it [s]; none: no limit. The second of two refinements is
+/// left
+///                out where both take more than half of the budget
+/// @return        own error: Truth::error(); the trajectory is empty where the watch stopped it
 StudyReference make_truth(const Problem& problem, const StudyOptions& options,
                           std::optional<double> budget, const TruthWatch& watch);
 

@@ -74,9 +74,10 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-constexpr double telling_order = 0.5;  // below, values do not tend to what they are compared with
+// observed order below which the values do not converge to the accepted one
+constexpr double telling_order = 0.5;
 
-/// p of errors that go with h^p, from the last two.
+/// Returns p of errors proportional to h^p, from the last two values.
 std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double exact) {
   if (v.size() < 2) return {};
   const VerifyValue &coarse = v[v.size() - 2], &fine = v.back();
@@ -84,9 +85,9 @@ std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double 
                 std::log(coarse.size / fine.size));
 }
 
-/// Of three values at sizes in constant ratio: what they tend to, and how fast (Roache,
-/// Verification and Validation in Computational Science and Engineering, 5.10). None where they do
-/// not tend to anything.
+/// Sets limit and order of a row from its last three values, at sizes in constant ratio. Leaves
+/// them empty where the values do not converge. After Roache, Verification and Validation in
+/// Computational Science and Engineering, 5.10.
 void extrapolate(VerifyRow& row) {
   const std::size_t n = row.ours.size();
   if (n < 3) return;

@@ -8,78 +8,83 @@
 
 namespace plica {
 
-/// A quantity as one mesh, or one time step, has it.
+/// Value of a quantity on one mesh, or with one time step.
 struct VerifyValue {
-  std::string mesh;  ///< its cells, "40x2x2", or what else was refined
-  double size = 0;   ///< of its cells, or of the step, in any unit
+  std::string mesh;  ///< cells of the mesh, "40x2x2", or another setting
+  double size = 0;   ///< size of the cells, or of the step, in any unit
   double value = 0;
 };
 
-/// What decides whether a row is ok.
+/// Rule that decides whether a row is ok.
 enum class Judged {
-  finest,  ///< its finest value is within the tolerance of the accepted one, relative
-  limit,   ///< what its values tend to is (Richardson's extrapolation)
-  size,    ///< no value is larger than the tolerance: an error to round-off
-  /// its values are errors; the order at which they fall is within the tolerance of the accepted
-  /// one, absolute
+  finest,  ///< the finest value is within the relative tolerance of the accepted one
+  /// the limit of the values (Richardson's extrapolation) is within the relative tolerance
+  limit,
+  size,  ///< no value is larger than the tolerance: an error to round-off
+  /// the values are errors; the order at which they fall is within the absolute tolerance of the
+  /// accepted one
   order,
-  above,   ///< its values fall towards the accepted one and stay above it: what locks, does
-  nothing  ///< it is for information
+  above,   ///< the values fall towards the accepted one from above, as with locking
+  nothing  ///< the row is for information
 };
 
-/// One quantity of a problem with a known answer, on several meshes.
+/// One quantity of a problem with a known solution, on several meshes.
 struct VerifyRow {
   std::string problem = {}, quantity = {}, unit = {};
-  std::string element = "linear";  ///< of its meshes
-  std::string mesh = "regular";    ///< these: regular, jittered or delaunay
+  std::string element = "linear";  ///< kind of elements
+  std::string mesh = "regular";    ///< kind of meshes: regular, jittered or delaunay
   std::optional<double> accepted = {};
-  std::string source = {};  ///< of the accepted value
+  std::string source = {};  ///< source of the accepted value
   std::vector<VerifyValue> ours = {};
   Judged judged = Judged::nothing;
   double tolerance = 0;
-  double power = 1;       ///< the one of its values that is extrapolated: -1 of deflections, 2 of
-                          ///< frequencies, so that it is a stiffness
-  std::string note = {};  ///< why it is not what one might expect
-  std::optional<double> limit = {};  ///< extrapolated from the last three
-  std::optional<double> order = {};  ///< observed
+  /// power of the values that is extrapolated: -1 for deflections and 2 for frequencies, which
+  /// makes it a stiffness
+  double power = 1;
+  std::string note = {};             ///< why the values are not those one may expect
+  std::optional<double> limit = {};  ///< extrapolated from the last three values
+  std::optional<double> order = {};  ///< observed order
   std::string outcome = {};          ///< ok | not ok | shown
 
   void add(const std::string& of, double size, double value) { ours.push_back({of, size, value}); }
 };
 
+/// Problems to solve, and how finely.
 struct VerifyOptions {
-  std::vector<std::string> problems;  ///< of verify_problems(); empty: all
-  bool small = false;                 ///< on coarser meshes: all in some seconds
+  std::vector<std::string> problems;  ///< names of verify_problems(); empty: all
+  bool small = false;                 ///< true: coarser meshes, all in some seconds
 };
 
+/// Rows of all problems.
 struct VerifyResult {
   std::vector<VerifyRow> rows;
-  bool stopped = false;  ///< by the caller, before all was done
-  bool ok() const;       ///< no row has the wrong outcome
+  bool stopped = false;  ///< true where the caller ended it early
+  bool ok() const;       ///< returns whether no row is "not ok"
 };
 
-/// How far it is.
+/// Progress of verify().
 struct VerifyProgress {
   std::string doing;
-  std::size_t done = 0, of = 0;  ///< problems
+  std::size_t done = 0, of = 0;  ///< numbers of problems
   const VerifyResult* so_far = nullptr;
-  bool new_rows = false;  ///< since the last call
+  bool new_rows = false;  ///< true where rows were added since the last call
 };
 
-/// Called before every mesh and after every problem; false ends it.
+/// Function called before every mesh and after every problem; false ends verify().
 using VerifyWatch = std::function<bool(const VerifyProgress&)>;
 
-/// Every problem with a known answer there is.
+/// Returns all problems with a known solution.
 std::vector<Choice> verify_problems();
 
-/// Solves them in double on the host. A problem that throws is a row that is not ok. InputError for
-/// an unknown name, with the nearest. Kokkos must be initialised.
+/// Solves the chosen problems in double on the host. A problem that throws gives a row that is not
+/// ok. Throws InputError for an unknown name; the message has the nearest name. Kokkos must be
+/// initialised.
 VerifyResult verify(const VerifyOptions& options, const VerifyWatch& watch = {});
 
-/// InputError where a name is not in verify_problems().
+/// Throws InputError where a name is not in verify_problems().
 void check_problems(const std::vector<std::string>& names);
 
-/// Fills in limit, order and outcome.
+/// Sets limit, order and outcome of a row.
 void judge(VerifyRow& row);
 
 }  // namespace plica

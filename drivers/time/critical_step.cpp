@@ -22,9 +22,9 @@ double critical_step(const typename B::Exec& exec, const StiffnessAt<B>& K,
         by_damping);
   }
   if (limit.radius <= 0) return infinite;
-  // damping acts like the stiffness radius D / h: the limit is where step(h) = h, reached from
-  // above. There ln step has a slope of at most 1/2 over ln h (the eigenvalue is convex in 1/h), so
-  // that it is not below step^2 / h.
+  // Damping acts like the stiffness radius D / h. The limit is where step(h) = h, reached from
+  // above. There ln step has a slope of at most 1/2 over ln h, as the eigenvalue is convex in 1/h.
+  // The limit is therefore not below step^2 / h.
   double h = limit.radius / w;
   for (int i = 0; i < 20 && damping.most_stiffness > 0; ++i) {
     const double damped =

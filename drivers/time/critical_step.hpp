@@ -5,17 +5,18 @@
 
 namespace plica {
 
-/// The range of Rayleigh damping in a level.
+/// Range of Rayleigh damping in a level.
 struct DampingLimit {
-  double least_mass = 0, most_mass = 0;            ///< [1/s]
-  double least_stiffness = 0, most_stiffness = 0;  ///< [s]
+  double least_mass = 0, most_mass = 0;            ///< minimum and maximum mass damping [1/s]
+  double least_stiffness = 0, most_stiffness = 0;  ///< minimum and maximum stiffness damping [s]
 };
 
-/// The largest stable step of an explicit integrator [s], see StabilityLimit; infinite for a free
-/// rigid level. Contact does not enter: it is implicit in the step, see cmake/docs/contact.md.
-/// @param K           without damping
-/// @param eigenvalue  largest_eigenvalue() of it [1/s^2]
-/// @param beside      bounds what else there is of w^2 [1/s^2]
+/// Returns the largest stable step of an explicit integrator [s], see StabilityLimit. It is
+/// infinite for a free rigid level. Contact does not enter: it is implicit in the step, see
+/// cmake/docs/contact.md.
+/// @param K           stiffness of the elements, without damping
+/// @param eigenvalue  largest_eigenvalue() of K [1/s^2]
+/// @param beside      upper bound of the other contributions to w^2 [1/s^2]
 template <class B>
 double critical_step(const typename B::Exec& exec, const StiffnessAt<B>& K,
                      const StabilityLimit& limit, const DampingLimit& damping, double eigenvalue,

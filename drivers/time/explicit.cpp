@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The explicit integrators. Each asks the level for the forces of a state, updates that state, and
-// lets vertices whose motion is given follow it.
+// Explicit integrators. Each asks the level for the forces of a state, updates that state, and then
+// sets the vertices whose motion is given.
 #include <plica/drivers/time/integrator_parts.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/time/updates.hpp>
@@ -9,14 +9,14 @@ namespace plica {
 
 namespace {
 
-// How these methods take contact. In the displacements alone symplectic Euler and the central
-// difference are the same leapfrog, in which the way of the next step follows from its force:
-// contact is taken at its end. Forward Euler moves by the velocity of the start: contact is taken
-// where that leads, and a step on from there. A Runge-Kutta stage takes it a step ahead of itself,
-// which damps it.
+// Contact in these methods, see ContactStep. In the displacements alone symplectic Euler and the
+// central difference are one method, leapfrog. There the next displacement follows from the force
+// of the step, and contact is evaluated at its end. Forward Euler moves by the velocity at the
+// start: contact is evaluated one step after the state that this leads to. A Runge-Kutta stage
+// evaluates contact one step after its own state, which damps it.
 
-/// One force per step, of which Update makes the next state: semi-implicit Euler, which is
-/// symplectic, or forward Euler. Both are of first order.
+/// Euler's method with one force per step, from which Update computes the next state. It is
+/// semi-implicit Euler, which is symplectic, or forward Euler. Both are of first order.
 template <class B, class Update>
 class EulerStep final : public Integrator<B> {
  public:
@@ -32,11 +32,12 @@ class EulerStep final : public Integrator<B> {
   }
 };
 
-/// The central difference method, u_{n+1} - 2 u_n + u_{n-1} = h^2 a_n with v_n = (u_{n+1} -
-/// u_{n-1})/2h, as total Lagrangian explicit dynamics has it (Miller et al. 2007), in displacement
-/// and velocity: half a kick, a drift, a force, half a kick. Order 2, symplectic: the energy of
-/// undamped motion wavers and does not drift. One force per step, which the next begins with unless
-/// the state, or what acts on it, has been changed since. Any mass damping is taken at v_n.
+/// Central difference method, as in total Lagrangian explicit dynamics (Miller et al. 2007):
+/// u_{n+1} - 2 u_n + u_{n-1} = h^2 a_n with v_n = (u_{n+1} - u_{n-1})/2h. In displacement and
+/// velocity a step is half a kick, a drift, a force, half a kick. It has order 2 and is symplectic:
+/// the energy of undamped motion oscillates and does not drift. It computes one force per step. The
+/// next step begins with this force, unless the state, or what acts on it, has been changed since.
+/// Mass damping is evaluated at v_n.
 template <class B>
 class CentralDifferenceStep final : public Integrator<B> {
   using Real = typename B::Real;
@@ -74,13 +75,14 @@ class CentralDifferenceStep final : public Integrator<B> {
   }
 
  private:
-  Vectors<B> f_;          // at the state
-  bool current_ = false;  // whether it is
+  Vectors<B> f_;          // forces at the end of the last step
+  bool current_ = false;  // whether f_ are the forces at the present state
 };
 
-/// Explicit Runge-Kutta methods whose stages each start from the one before. A tableau has
-///   stages, weight[stages]   how much of each stage's slope the step takes
-///   ahead[stages - 1]        where the next stage is: at start + ahead h slope, and at that part of the step
+/// Explicit Runge-Kutta method in which each stage uses only the slope of the stage before. A
+/// tableau has
+///   stages, weight[stages]   weight of each stage's slope in the step
+///   ahead[stages - 1]        next stage: state start + ahead h slope, at time + ahead h
 template <class B, class Tableau>
 class RungeKuttaStep final : public Integrator<B> {
   using Real = typename B::Real;
@@ -122,13 +124,13 @@ class RungeKuttaStep final : public Integrator<B> {
   State<B> start_, stage_, sum_;
 };
 
-/// The midpoint rule.
+/// Tableau of the midpoint rule.
 struct MidpointTableau {
   static constexpr int stages = 2;
   static constexpr double weight[2] = {0, 1}, ahead[1] = {0.5};
 };
 
-/// The classical method of order 4.
+/// Tableau of the classical method of order 4.
 struct ClassicalTableau {
   static constexpr int stages = 4;
   static constexpr double weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6},

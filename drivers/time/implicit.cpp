@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The implicit integrators. Each sets the base (u~, v~) of a stage, which the stage solver then
-// solves (stage_solver.hpp); what becomes of a step that is not solved, ImplicitStep says.
+// Implicit integrators. Each sets the base (u~, v~) of a stage, which the stage solver then solves
+// (stage_solver.hpp). ImplicitStep treats steps that are not solved.
 #include <plica/drivers/time/implicit_step.hpp>
 #include <plica/kernels/time/stage_kernels.hpp>
 
@@ -8,7 +8,7 @@ namespace plica {
 
 namespace {
 
-/// Base of backward Euler over h [s].
+/// Computes the base of backward Euler over h [s].
 template <class B>
 void backward_euler_base(const SolverLevel<B>& level, double h, const State<B>& base) {
   base.copy(level.exec(), level.state);
@@ -19,10 +19,11 @@ void backward_euler_base(const SolverLevel<B>& level, double h, const State<B>& 
 /// Backward Euler: order 1, dissipative at every step, no stability limit on the linear problem
 /// (L-stable).
 ///
-/// With the linear solver v_cycle, the system A = M + h^2 K is answered by exactly one V-cycle C of
-/// multigrid over the body's meshes. On the linear problem, with C A in (0, 1], motion against k =
-/// h^2 C K < 1 has |eigenvalue|^2 = 1 - k: no limit on the step. What the cycle does not resolve
-/// moves as if it were heavier. Of a body that stiffens, C stays behind until it is fitted again.
+/// The linear solver v_cycle approximates the inverse of the system A = M + h^2 K. It is exactly
+/// one V-cycle C of multigrid over the body's meshes. On the linear problem the eigenvalues
+/// of C A are in (0, 1]. A mode with the eigenvalue k < 1 of h^2 C K then has |eigenvalue|^2 = 1 -
+/// k per step: there is no limit on the step. Motion that the cycle does not resolve moves as if it
+/// were heavier. If a body stiffens, C does not follow until it is fitted again.
 template <class B>
 class ImplicitEulerStep final : public ImplicitStep<B> {
  public:
@@ -35,10 +36,11 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
   }
 };
 
-/// Base of the trapezoidal rule over h [s] from the level's state at `time`: half a step of forward
-/// Euler, and the drift of the implicit half. Contact is no part of it: it acts at the end of a
-/// step (C. Kane, E. A. Repetto, M. Ortiz, J. E. Marsden, Comput. Methods Appl. Mech. Engrg. 180,
-/// 1999), and averaged over a step it would gain energy. Uses level.f.
+/// Computes the base of the trapezoidal rule over h [s] from the level's state at `time`. It is
+/// half a step of forward Euler, and the drift of the implicit half. Contact is no part of it:
+/// contact acts at the end of a step (C. Kane, E. A. Repetto, M. Ortiz, J. E. Marsden, Comput.
+/// Methods Appl. Mech. Engrg. 180, 1999). Averaged over a step it would gain energy. Overwrites
+/// level.f.
 template <class B>
 void trapezoidal_base(SolverLevel<B>& level, double time, double h, const State<B>& base) {
   using Real = typename B::Real;
@@ -51,10 +53,10 @@ void trapezoidal_base(SolverLevel<B>& level, double time, double h, const State<
 }
 
 /// Newmark's method with beta = 1/4, gamma = 1/2: the trapezoidal rule, half a step of forward
-/// Euler, then half a step of backward Euler. Order 2; on the linear problem stable at every step
-/// (A-stable) and without loss of energy, so that motion too fast for the step rings on; with large
-/// strains energy wavers and may grow (Hughes, The Finite Element Method, 9.1), and with one Newton
-/// iteration per step it is lost.
+/// Euler, then half a step of backward Euler. It has order 2. On the linear problem it is stable at
+/// every step (A-stable) and conserves energy, so that motion too fast for the step does not decay.
+/// With large strains energy oscillates and may grow (Hughes, The Finite Element Method, 9.1). With
+/// one Newton iteration per step energy is lost.
 template <class B>
 class NewmarkStep final : public ImplicitStep<B> {
  public:
@@ -67,16 +69,18 @@ class NewmarkStep final : public ImplicitStep<B> {
   }
 };
 
-/// The backward differentiation formula of a step that is w times the last one,
+/// Backward differentiation formula of order 2, for a step that is w times the last one:
 ///
-///   v = v_n + w^2/(1 + 2w) (v_n - v_{n-1}) + b a,  b = h (1 + w)/(1 + 2w),  likewise u:
+///   v = v_n + w^2/(1 + 2w) (v_n - v_{n-1}) + b a,  b = h (1 + w)/(1 + 2w)
+///   u = u_n + w^2/(1 + 2w) (u_n - u_{n-1}) + b v
 ///
-/// order 2, stable at every constant step on the linear problem, and fast motion decays (L-stable);
-/// slow motion loses energy in proportion to h^4 (Hairer & Wanner, Solving ODEs II, V.1; of steps
-/// that change: Solving ODEs I, III.5, stable for w < 1 + sqrt 2). Where there is no step before
-/// it, and so on every level of a cycle, which hands over another state: half a step of the
-/// trapezoidal rule, then the formula over the two halves (Bank et al. 1985), as stable and as
-/// accurate; with contact, backward Euler.
+/// On the linear problem it is stable at every constant step, and fast motion decays (L-stable).
+/// Slow motion loses energy in proportion to h^4 (Hairer & Wanner, Solving ODEs II, V.1). With
+/// changing steps it is stable for w < 1 + sqrt 2 (Solving ODEs I, III.5).
+///
+/// The first step has no step before it; neither has a step on a level of a cycle, which replaces
+/// the state. Such a step is half a step of the trapezoidal rule, then the formula over the two
+/// halves (Bank et al. 1985), as stable and as accurate. With contact it is backward Euler.
 template <class B>
 class Bdf2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;
@@ -99,7 +103,7 @@ class Bdf2Step final : public ImplicitStep<B> {
 
  protected:
   bool step(SolverLevel<B>& level, double time, double h) override {
-    constexpr double most_growth = 2.0 + 1e-9;  // of a step
+    constexpr double most_growth = 2.0 + 1e-9;  // maximum ratio of a step to the last one
     start_.copy(level.exec(), level.state);
     const double growth = last_step_ > 0 ? h / last_step_ : 0;
     ratio_ = growth <= most_growth ? growth : 0;
@@ -111,7 +115,7 @@ class Bdf2Step final : public ImplicitStep<B> {
     remember(level);
     last_step_ = h;
   }
-  /// A part of the last change of momentum is carried on.
+  /// Returns the impulse; a part of the last change of momentum is carried on.
   CarriedImpulse impulse(double h) const override {
     return ratio_ > 0 ? CarriedImpulse{implicit_part(ratio_) * h, carried_part(ratio_)}
                       : CarriedImpulse{h};
@@ -119,8 +123,8 @@ class Bdf2Step final : public ImplicitStep<B> {
 
  private:
   State<B> start_, increment_;
-  double last_step_ = 0;  // [s]; 0: none
-  double ratio_ = 0;      // of the last step to the one before it; 0: not by the formula
+  double last_step_ = 0;  // step before [s]; 0: none
+  double ratio_ = 0;      // ratio of the last step to the one before; 0: it did not use the formula
 
   static double carried_part(double ratio) { return ratio * ratio / (1 + 2 * ratio); }
   static double implicit_part(double ratio) { return (1 + ratio) / (1 + 2 * ratio); }
@@ -134,7 +138,7 @@ class Bdf2Step final : public ImplicitStep<B> {
     add<B>(level.exec(), "plica::bdf2_drift", static_cast<Real>(b), base.v, base.u);
     return this->stages().solve(level, time, h, {b * b, b}, contact);
   }
-  /// Backward Euler: where contact sets in the trapezoidal rule rings.
+  /// Computes a step of backward Euler: the trapezoidal rule oscillates where contact sets in.
   bool euler(SolverLevel<B>& level, double time, double h) {
     backward_euler_base(level, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
@@ -142,7 +146,7 @@ class Bdf2Step final : public ImplicitStep<B> {
   bool first(SolverLevel<B>& level, double time, double h) {
     trapezoidal_base(level, time, h, this->stages().base());
     const bool solved = this->stages().solve(level, time, h, {h * h / 4, h / 2});
-    last_step_ = 0, remember(level);  // of the half, also where the step is not accepted
+    last_step_ = 0, remember(level);  // stores the first half, also where the step is not accepted
     prescribe(level.exec(), level, level.state, time + h, h);
     return formula(level, time + h, h, 1) && solved;
   }
@@ -151,11 +155,12 @@ class Bdf2Step final : public ImplicitStep<B> {
   }
 };
 
-/// The generalised alpha method of Chung & Hulbert (1993): order 2, stable at every step on the
-/// linear problem, and the fastest motion keeps rho_infinity of its amplitude per step: 1 conserves
-/// (the implicit midpoint rule), 0 annihilates. Balance is met at t + (1 - alpha_f) h with the
-/// acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. It carries an acceleration from step to step;
-/// where a cycle hands over another state, that is the acceleration there.
+/// Generalised alpha method of Chung & Hulbert (1993): order 2, stable at every step on the linear
+/// problem. The amplitude of the fastest motion is multiplied by rho_infinity per step. With 1 it
+/// is conserved (the implicit midpoint rule), with 0 it vanishes. Balance is met at t + (1 -
+/// alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. The method carries an
+/// acceleration from step to step. Where a cycle replaces the state, the acceleration is computed
+/// anew.
 template <class B>
 class GeneralizedAlphaStep final : public ImplicitStep<B> {
   using Real = typename B::Real;
@@ -204,8 +209,9 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
                                 {.span = h, .scale = 1 / (1 - force_)});
   }
 
-  /// Contact's part A of m a goes on as a does, from 0 where no step was before: alpha_m A_n + (1 -
-  /// alpha_m) A_{n+1} = F, and the impulse is h ((1 - gamma) A_n + gamma A_{n+1}).
+  /// Returns the impulse of contact, h ((1 - gamma) A_n + gamma A_{n+1}). A is contact's part of m
+  /// a, with alpha_m A_n + (1 - alpha_m) A_{n+1} = F. It is carried from step to step as a is, and
+  /// is 0 before the first step.
   CarriedImpulse impulse(double h) const override {
     const double again = started_ ? -mass_ / (1 - mass_) : 0;
     return {1 / (1 - mass_), again, gamma_ * h, started_ ? (1 - gamma_) * h : 0};
@@ -225,18 +231,20 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   State<B> start_;
   Vectors<B> acceleration_;
   bool carried_ = false, started_ = false;  // started_: the last step had one before it
-  double mass_, force_, beta_, gamma_;      // alpha_m, alpha_f, Newmark's
-  double velocity_of_ = 0;                  // of an acceleration in the last stage [s]
+  double mass_, force_, beta_, gamma_;      // alpha_m, alpha_f, Newmark's beta and gamma
+  double velocity_of_ = 0;                  // velocity per acceleration in the last stage, cv [s]
 };
 
-/// A singly diagonally implicit Runge-Kutta method of two stages (R. Alexander, SIAM J. Numer.
-/// Anal. 14, 1977), c = 1 - 1/sqrt 2:
+/// Singly diagonally implicit Runge-Kutta method of two stages (R. Alexander, SIAM J. Numer. Anal.
+/// 14, 1977), c = 1 - 1/sqrt 2:
 ///
-///   v_1 = v_n + c h a_1,  v_{n+1} = v_n + (1 - c) h a_1 + c h a_2,  likewise u:
+///   v_1 = v_n + c h a_1,  v_{n+1} = v_n + (1 - c) h a_1 + c h a_2
+///   u_1 = u_n + c h v_1,  u_{n+1} = u_n + (1 - c) h v_1 + c h v_{n+1}
 ///
-/// order 2, stable at every step on the linear problem, and fast motion decays (L-stable); it needs
-/// no step before. Both stages have one system. Contact is met in both, and acts on the step at its
-/// end alone, as in Newmark's method: a_1 is without it.
+/// It has order 2, is stable at every step on the linear problem, and fast motion decays
+/// (L-stable). It needs no step before. Both stages have one system matrix on the linear problem.
+/// Contact is solved in both stages, but acts on the step at its end only, as in Newmark's method:
+/// a_1 is without it.
 template <class B>
 class Sdirk2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;

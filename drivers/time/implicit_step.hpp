@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// What implicit integrators have in common: they take a step by stages, and accept it whether it
-/// is solved or not. unsolved() says how far it is not.
+/// Base class of implicit integrators. A step consists of stages, and is accepted whether it is
+/// solved or not. unsolved() returns the part of the forces that unsolved steps left unbalanced.
 template <class B>
 class ImplicitStep : public Integrator<B> {
  public:
@@ -44,22 +44,23 @@ class ImplicitStep : public Integrator<B> {
   }
 
  protected:
-  /// From `time` over h [s], the level's state at the start being consistent with given motions.
-  /// False where a stage is not solved.
+  /// Computes a step from `time` over h [s]; returns false where a stage is not solved. The level's
+  /// state at the start is consistent with given motions.
   virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
-  /// How contact's force over the last step is part of its impulse.
+  /// Returns how contact's last forces contribute to the impulse of the last step, of h [s].
   virtual CarriedImpulse impulse(double h) const { return {h}; }
-  /// From the stage in the level's state to the end of the step, where that is another.
+  /// Computes the end of the step from the last stage, which is the level's state. By default the
+  /// last stage is the end of the step.
   virtual void finish(SolverLevel<B>&, double /*h*/) {}
 
  private:
-  static constexpr double notable_motion = 0.1;  ///< part of the kinetic energy
+  static constexpr double notable_motion = 0.1;  ///< notable fraction of the kinetic energy
 
   StageSolver<B> stages_;
-  bool surprised_ = false;  ///< the last step ended with contact that was not foreseen
-  bool stops_;              ///< where a step is not solved, the run ends
-  double unsolved_ = 0;     ///< of the last advance()
+  bool surprised_ = false;  ///< whether the last step ended with contact that was not foreseen
+  bool stops_;              ///< whether the run ends where a step is not solved
+  double unsolved_ = 0;     ///< largest unbalanced part of the forces in the last advance()
 
   void accept(SolverLevel<B>& level, double time, double h) {
     if (level.contact())
@@ -73,10 +74,11 @@ class ImplicitStep : public Integrator<B> {
     if (surprised_) unsolved_ = std::max(unsolved_, part);
     surprised_ = part > 0;
   }
-  /// Contact that is found where a step ends, and that the step did not know of: its energy over
-  /// that of the contact that was solved and a tenth of the motion's; 0 where it is no more than
-  /// those. It throws the body. One such step is what comes into touch; a second in a row is not
-  /// solved.
+  /// Returns the size of unforeseen contact at the end of a step: (found - solved) / (solved + 0.1
+  /// kinetic), of energies. `solved` is the energy of the contact that the step solved, and `found`
+  /// that of the contact at its end. The result is 0 where it would be 1 or less, or where found is
+  /// at most 2 solved; it is at most 1e9. Unforeseen contact throws the body. One such step happens
+  /// when bodies come into touch; a second one in a row counts as not solved.
   double unforeseen(SolverLevel<B>& level, double time) {
     double solved = 0, found = 0;
     level.book("contact", [&] {

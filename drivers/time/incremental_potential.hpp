@@ -4,18 +4,21 @@
 
 namespace plica {
 
-/// Of inertia, elements, pressures that follow the body, and contact, at a state that Newton's
-/// method goes through. Its slope is the balance R = 0 that a stage solves.
+/// Incremental potential of a stage, at a state that Newton's method visits. It is the sum for
+/// inertia, elements, pressures that follow the body, and contact. Its gradient is R, and the stage
+/// solves the balance R = 0.
 struct IncrementalPotential {
   double value = 0;     ///< [J]
   double residual = 0;  ///< |R| [N]
   double slope = 0;     ///< R.change [J]
-  double scale = 0;     ///< of what `value` adds up [J]
-  /// those that accelerate the body, those that do not depend on its state, and contact's [N]
+  double scale = 0;     ///< sum of the sizes of the terms of `value`, for its rounding [J]
+  /// sum of the sizes of three kinds of forces: those that accelerate the body, those that do not
+  /// depend on its state, and contact's [N]
   double forces = 0;
-  double masses = 0;  ///< root of the sum of their squares [kg]
-  double volume = 0;  ///< least ratio of an element, or 1
-  bool solved = false;
+  double masses = 0;    ///< root of the sum of the squared masses [kg]
+  double volume = 0;    ///< least volume ratio of an element, 1 at most
+  bool solved = false;  ///< whether the state solves the stage
+  /// Returns whether `value` and `residual` are finite.
   bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
 };
 

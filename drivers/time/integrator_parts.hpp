@@ -8,23 +8,22 @@
 
 namespace plica {
 
-/// What an integrator is given at set-up.
+/// Arguments of an integrator's constructor.
 template <class B>
 struct IntegratorParts {
   ImplicitOptions implicit;
-  bool contact = false;
-  /// elements of the material
-  bool may_invert = false;
-  /// the run, where a step is not solved
-  bool stops = false;
-  /// energy, on the linear problem
-  bool conserves = false;
-  /// mean, of the level's mesh [m]
+  bool contact = false;     ///< whether the problem has contact
+  bool may_invert = false;  ///< whether elements of the material may invert
+  bool stops = false;       ///< whether the run ends where a step is not solved
+  bool conserves = false;   ///< whether the integrator conserves energy on the linear problem
+  /// mean edge length of the level's mesh [m]
   double edge = 0;
-  std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
+  /// makes the linear solver, for implicit integrators
+  std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;
 };
 
-/// In the source that defines Kind::make(): compiles it for a backend, which is the last argument.
+/// Instantiates Kind::make() for a backend, which is the last argument. It is used in the source
+/// that defines Kind::make().
 #define PLICA_MAKE_INTEGRATOR(Kind, ...)                        \
   template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make( \
       const Level<__VA_ARGS__>&, const IntegratorParts<__VA_ARGS__>&);

@@ -17,10 +17,10 @@
 
 namespace plica {
 
-/// Solves the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a
-/// level's state, by one linear solve about the start of the step (linearly implicit: Baraff &
-/// Witkin 1998) or by Newton's method on the incremental potential (Gast et al. 2015). Where nodal
-/// elements smooth their pressures, it carries these from solve to solve:
+/// Solver of the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a
+/// level's state. It uses one linear solve about the start of the step (linearly implicit: Baraff &
+/// Witkin 1998), or Newton's method on the incremental potential (Gast et al. 2015). Where nodal
+/// elements smooth their pressures, mixed pressures are kept from solve to solve:
 /// kernels/elastic/carried_pressures.hpp.
 template <class B>
 class StageSolver {
@@ -55,12 +55,12 @@ class StageSolver {
     result_ = Doubles<B>("plica::stage.result", 7);
   }
 
-  /// The base (u~, v~), to be set before solve().
+  /// Returns the base (u~, v~), which must be set before solve().
   const State<B>& base() const { return base_; }
 
-  /// Takes the level's state from the step's start at `time` [s] to the stage, `ahead` of it. False
-  /// where Newton's method did not get there. `contact`: how it takes contact; a default one: not
-  /// at all.
+  /// Solves the stage at time + ahead [s], from the level's state at the step's start, `time`.
+  /// Returns false where Newton's method did not solve it.
+  /// @param contact  times and factors of contact; a default one: no contact in this stage
   bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights,
              const ContactStage& contact = {}) {
     contact_ = contact;
@@ -77,21 +77,23 @@ class StageSolver {
     return solved;
   }
 
-  /// Whether Newton's method ever looks at what it has not solved.
+  /// Returns whether Newton's method may be used: then unsolved() tells which stages were not
+  /// solved.
   bool judges() const { return result_.extent(0) > 0; }
-  /// [J]. Waits.
+  /// Returns the kinetic energy of the level's state [J]. Waits for the device.
   double kinetic(const SolverLevel<B>& level) const {
     reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
                  KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
     return host_values(level.exec(), result_)[0];
   }
-  /// Of the last stage that Newton's method did not solve: the part of the forces that is
-  /// unbalanced.
+  /// Returns the unbalanced part of the forces in the last stage that Newton's method did not
+  /// solve.
   double unsolved() const { return unsolved_; }
 
-  /// Since begin(): the largest part of its forces that a stage left unbalanced, or the relative
-  /// residual of its one linear solve.
+  /// Returns the largest unbalanced part of the forces in a stage since begin(). For a stage of one
+  /// linear solve it is the relative residual of that.
   double residual() const { return residual_; }
+  /// Resets residual() to 0.
   void begin() { residual_ = 0; }
 
   std::map<std::string, long> counters() const {
@@ -119,42 +121,44 @@ class StageSolver {
   }
 
  private:
-  static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
-  // part of the decrease that the slope promises
+  // maximum halvings of a change; maximum where another direction can still be tried
+  static constexpr int most_halvings = 12, halvings_unprojected = 2;
+  // part of the decrease expected from the slope that is sufficient
   static constexpr double sufficient = 1e-4;
-  // part of the forces that may be left unbalanced
+  // maximum unbalanced part of the forces; for a method that conserves energy, without contact
   static constexpr double balanced = 3e-3, conserving = 1e-6;
-  // edges that nobody sees a body move by
+  // motion that is too small to be seen, over the mean edge
   static constexpr double still = 1e-11;
-  // of the least volume that a change of a state must leave
+  // part of the least volume ratio that a change of a state must keep
   static constexpr double least_volume_part = 0.2;
-  static constexpr double first_tolerance = 0.01;  // of the first system
-  // systems in a row whose tangents are projected
+  static constexpr double first_tolerance = 0.01;  // relative tolerance of the first system
+  // maximum iterations where contact alone needs them; systems in a row with projected tangents
   static constexpr int contact_iterations = 20, projections = 3;
-  // of a stage's energies: what the potential gains less is lost in rounding
+  // part of a stage's energies: smaller changes of the potential are lost in rounding
   static constexpr double unseen = 1e-10;
 
   ImplicitOptions options_;
-  double edge_;      ///< mean [m]
-  bool may_invert_;  ///< elements may
-  /// part of the forces: a stage that leaves no more is solved, one that leaves no more ends
+  double edge_;      ///< mean edge length [m]
+  bool may_invert_;  ///< whether elements may invert
+  /// unbalanced parts of the forces: a stage with judged_ or less is solved; Newton's method ends
+  /// at aim_ or less
   double judged_, aim_;
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
-  Scalars<B> carrying_, carried_,
-      last_carried_;  ///< with room for the pressures, these, and those before the last solve
+  /// buffer whose end is carried_; mixed pressures; mixed pressures before the last solve
+  Scalars<B> carrying_, carried_, last_carried_;
   BlockSums<B> blocks_;
   Doubles<B> result_;
   long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, searches_ = 0;
   ContactStage contact_;
-  /// of the carried pressures; whether they are still to be taken from a state
+  /// number of updates of the mixed pressures; 1 where they must still be computed from a state
   long updates_ = 0, fresh_ = 1;
   double residual_ = 0, unsolved_ = 0;
-  bool cut_ = false;  ///< the last change was shortened
-  /// systems for which tangents are projected without a new reason
+  bool cut_ = false;  ///< whether the last change was shortened
+  /// number of further systems whose tangents are projected without a new reason
   long projecting_ = 0;
-  Scalars<B> von_mises_, volume_;  ///< of elements
+  Scalars<B> von_mises_, volume_;  ///< stress and volume ratio of elements
 
   bool iterates() const { return options_.newton_iterations > 1; }
   bool carries() const { return carried_.extent(0) > 0; }
@@ -162,7 +166,7 @@ class StageSolver {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
   }
 
-  /// Whether nothing but inertia and the elements' stiffness is in a system.
+  /// Returns whether a system has only inertia and the elements' stiffness.
   static bool is_stiffness_alone(const SolverLevel<B>& level) {
     return !level.contact() && level.followers.empty() && !level.viscosity &&
            level.model.patches.damping.extent(0) == 0;
@@ -176,7 +180,7 @@ class StageSolver {
     SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
     if (out.indefinite && options_.tangent == "auto" && !level.followers.empty() &&
         level.prescribed.count == 0) {
-      undo(level, weights, 1);  // the pressure takes more stiffness away than there is
+      undo(level, weights, 1);  // pressures that follow the body made the system indefinite
       if (!out.converged) --misses_;
       out = correct(level, weights, false, true, tolerance);
     }
@@ -184,7 +188,7 @@ class StageSolver {
     return true;
   }
 
-  /// One linear solve at the linearised state, and the state that follows from it.
+  /// Solves one linear system at the linearised state, and updates the state with its solution.
   SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start,
                        bool positive, double tolerance) {
     const int n = level.model.vertices;
@@ -226,18 +230,18 @@ class StageSolver {
     return out;
   }
 
-  // --- Newton's method
-  // ----------------------------------------------------------------------------------------------------------
+  // --- Newton's method ---------------------------------------------------------------------------
 
-  /// Whether contact acts in this stage.
+  /// Returns whether contact acts in this stage.
   bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
 
-  /// Elements and contact at once, from the step's start. Systems are solved as far as it pays
-  /// (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each further state has a lower potential,
-  /// with friction's caps as they are, and keeps a part of the least volume; then caps follow.
+  /// Minimises the potential of elements and contact together, from the step's start. Systems are
+  /// solved only as accurately as it pays (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each
+  /// further state has a lower potential at fixed caps of friction, and keeps a part of the least
+  /// volume. Then the caps are updated.
   bool minimise(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
     const double end = time + ahead;
-    // nobody watches where Newton's method looks
+    // no element flags are set at trial states of Newton's method
     const ElementFlags<B> flags = std::exchange(level.flags, {});
     if (touches(level))
       level.book("contact", [&] {
@@ -250,12 +254,13 @@ class StageSolver {
     if (!may_invert_) now.volume = least_volume(level);
     if (touches(level))
       level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
-    // at rest, where no given motion starts
+    // A body at rest without given motions is solved at once
     now.solved = level.prescribed.count == 0 &&
                  std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
     const int most = iterates() ? options_.newton_iterations : contact_iterations;
     const bool once = !solver_->converges() && touches(level);
-    // the change is 0 where nothing moves
+    // The change is 0: this only makes the displacements of the stage consistent with its
+    // velocities
     if (now.solved)
       update_vertices<B>(level.exec(), "plica::stage_update", level.model.vertices,
                          StageUpdate<B>{at(level, w), change_});
@@ -280,8 +285,8 @@ class StageSolver {
     return false;
   }
 
-  /// Whether what is unbalanced is no more than a part of the forces there are, which are the same
-  /// in a body that flies; or moves nothing.
+  /// Returns whether the unbalanced force is small enough. Limits are newton_residual, `part` of
+  /// the sum of all forces, and unseen_force(). The sum does not depend on the velocity of a body.
   bool is_balanced(const IncrementalPotential& now, const ImplicitWeights& w, double part) const {
     return now.residual <=
            std::max({options_.newton_residual, part * now.forces, unseen_force(now, w)});
@@ -297,26 +302,27 @@ class StageSolver {
     now.volume = volume, now.forces += by.forces;
   }
 
-  /// How much nearer than by themselves systems and forces are to be solved, as `relative_residual`
-  /// asks for less than its default.
+  /// Returns the factor on the tolerances of systems and forces: relative_residual over its
+  /// default, 1 at most.
   double finer() const {
     return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual);
   }
 
-  /// What moves the body by no more than anybody sees in the step [N].
+  /// Returns the largest force that moves the body too little to be seen in the step [N].
   double unseen_force(const IncrementalPotential& p, const ImplicitWeights& w) const {
     return still * edge_ * p.masses / w.a;
   }
 
-  /// From a state that is linearised to the next, which then is, without contact in level.f: along
-  /// Newton's direction as far as it leads down. Where it does not, along that of the projected
-  /// tangents; none, and the state is where it was, where that does not either.
+  /// Goes from a linearised state to the next along Newton's direction, as far as it leads down.
+  /// The next state is then linearised, without contact in level.f. Where Newton's direction does
+  /// not lead down, that of the projected tangents is tried. If it does not lead down either, the
+  /// state stays and nothing is returned.
   std::optional<IncrementalPotential> descend(SolverLevel<B>& level, double time, double ahead,
                                               const ImplicitWeights& w,
                                               const IncrementalPotential& now, int k,
                                               double tolerance) {
     const double end = time + ahead;
-    // given motions change what is compared
+    // In the first system given motions move: potentials before and after cannot be compared
     const bool first = k == 0, moving = first && level.prescribed.count > 0;
     const bool may_project = options_.tangent == "auto";
     bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
@@ -325,7 +331,7 @@ class StageSolver {
       const SolveOutcome out = correct(level, w, from_start, projected, tolerance);
       if (touches(level) && !solver_->converges()) return now;
       const double slope = vertex_terms(level, w, 1)[2];
-      // contact is that of where velocities lead to
+      // In the first system contact is linearised ahead of the state, where the velocities lead to
       const bool ahead_of_it = from_start && touches(level);
       const bool leads_up = out.indefinite || (!ahead_of_it && !(slope < 0)),
                  last = projected || !may_project;
@@ -338,7 +344,7 @@ class StageSolver {
       }
       undo(level, w, part);
       if (last && !ahead_of_it) return {};
-      if (!out.converged) --misses_;  // and is solved again
+      if (!out.converged) --misses_;  // not counted: the system is solved again
       if (may_project) projecting_ = carries() ? 0 : projections, projected = true;
       level.linearise(level.state, end, w, 0, level.f);
       if (touches(level))
@@ -346,8 +352,8 @@ class StageSolver {
     }
   }
 
-  /// Shortens the change that the state has made, to `part` of it, until the potential is lower and
-  /// no volume much less than the least was; none where it never is.
+  /// Shortens the last change of the state, to `part` of it, until the potential is lower. The
+  /// least volume must also not be much lower than before. Returns nothing where that fails.
   std::optional<IncrementalPotential> shorten(SolverLevel<B>& level, double end,
                                               const ImplicitWeights& w,
                                               const IncrementalPotential& now, double slope,
@@ -361,7 +367,7 @@ class StageSolver {
         next.slope *= part, next.volume = volume;
         const bool falls = next.value - now.value <=
                            sufficient * part * slope + std::max(rounding(now), rounding(next));
-        // where forces have no potential
+        // Some forces have no potential: a smaller residual is accepted as well
         const bool nearer = !touches(level) && next.residual < now.residual;
         if (next.finite() && (moving || !now.finite() || falls || nearer)) return next;
       }
@@ -372,14 +378,14 @@ class StageSolver {
     }
   }
 
-  /// What is lost in rounding where a potential is worked out [J].
+  /// Returns the rounding error of a potential [J].
   double rounding(const IncrementalPotential& p) const {
     return std::max(contact_.span > 0 ? unseen : 0.0,
                     16.0 * Kokkos::Experimental::epsilon_v<Real>) *
            p.scale;
   }
 
-  /// Of the state whose forces are in level.f, with contact's energy.
+  /// Returns the potential of the state whose forces are in level.f, with contact's energy.
   IncrementalPotential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
     const IncrementalPotential p = potential(level, end, w);
     return touches(level)
@@ -391,7 +397,8 @@ class StageSolver {
     return p;
   }
 
-  /// What `now` was before the last change, with the pressures that are carried since.
+  /// Returns `now` for the state before the last change, with its value at the present mixed
+  /// pressures.
   IncrementalPotential before(SolverLevel<B>& level, double end, const ImplicitWeights& w,
                               IncrementalPotential now) const {
     if (!carries()) return now;
@@ -402,7 +409,7 @@ class StageSolver {
     return now;
   }
 
-  /// The least volume ratio of an element, or 1.
+  /// Returns the least volume ratio of an element, 1 at most.
   double least_volume(const SolverLevel<B>& level) const {
     level.elasticity().stress(level.exec(), level, level.state.u, von_mises_, volume_);
     reduce<B, 1, LackOfVolume<B>, Sums<1, 1>>(level.exec(), "plica::least_volume",
@@ -416,7 +423,7 @@ class StageSolver {
                        StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
   }
 
-  /// Takes back what is left of a change.
+  /// Takes back `part` of the last change, which is all that is left of it.
   void undo(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
     retreat(level, w, part);
     if (carries()) copy(level.exec(), carried_, last_carried_);
@@ -426,7 +433,8 @@ class StageSolver {
     const std::vector<double> sums = host_values(exec, result_);
     return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
   }
-  /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
+  /// Returns the sums of StagePotential. `back`: 1 for the state before the last change, while
+  /// level.f are the forces there; 0 for the present state.
   std::array<double, 7> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w,
                                      double back) const {
     reduce<B, 7>(level.exec(), "plica::stage_potential", level.model.vertices,
@@ -434,7 +442,7 @@ class StageSolver {
                  blocks_, result_);
     return read(level.exec());
   }
-  /// Of the state whose forces are in level.f.
+  /// Returns the potential of the state whose forces are in level.f, without contact.
   IncrementalPotential potential(const SolverLevel<B>& level, double end,
                                  const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
@@ -446,7 +454,7 @@ class StageSolver {
             std::sqrt(terms[4]) + std::sqrt(terms[5]),
             std::sqrt(terms[6])};
   }
-  /// Of elements and pressures that follow the body at the level's state [J].
+  /// Returns the energy of elements and of pressures that follow the body at the level's state [J].
   double stored(const SolverLevel<B>& level, double end) const {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,

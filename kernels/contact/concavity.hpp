@@ -7,10 +7,10 @@
 
 namespace plica {
 
-/// How an obstacle's normal n turns where a point moves along a hollow of it, by -G dx: -G is the
-/// Hessian of the distance, without what is convex. A bowl of radius R has G = (1 - n n) / R [1/m],
-/// a convex solid 0. `x`, `n`: as the shape has them; by differences of n over `width` to either
-/// side [m].
+/// Returns G, by which an obstacle's normal n turns where a point moves by dx along a hollow: by -G
+/// dx. -G is the Hessian of the distance, without its convex part. A bowl of radius R has G = (1 -
+/// n n) / R [1/m], a convex solid 0. `x` and `n` are in the axes of the shape. G comes from
+/// differences of n over `width` to either side [m].
 template <class Real, class Shape>
 KOKKOS_INLINE_FUNCTION SymMat3<Real> concavity(const Shape& shape, const ObstaclePose& place,
                                                const Vec3<Real>& x, const Vec3<Real>& n,

@@ -7,14 +7,14 @@
 
 namespace plica {
 
-/// x = 0
+/// Sets vectors to 0.
 template <class B>
 struct ZeroVectors {
   Vectors<B> x;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(x, a, {}); }
 };
 
-/// Where the surface is; the largest square of a point's velocity.
+/// Computes the positions of the surface points, and the largest square of a point's velocity.
 template <class B>
 struct PlacePoints {
   EmbeddedSurface<B> surface;
@@ -28,7 +28,8 @@ struct PlacePoints {
   }
 };
 
-/// f += transpose of the embedding times the point forces, each vertex adding its points in order.
+/// Adds the transpose of the embedding times the point forces to f. Each vertex adds its points in
+/// order.
 template <class B>
 struct ScatterToVertices {
   EmbeddedSurface<B> surface;
@@ -51,23 +52,23 @@ void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>&
                      ScatterToVertices<B>{surface, force, f});
 }
 
-/// What mass damping leaves of an acceleration; see ContactStep.
+/// Returns the part of an acceleration that mass damping leaves; see ContactStep.
 template <class B>
 KOKKOS_INLINE_FUNCTION typename B::Real kept(const VertexModel<B>& model, int a,
                                              typename B::Real damped) {
   return 1 / (1 + damped * model.damping(a));
 }
 
-/// f += W^T F, each vertex adding its records in order.
+/// Adds W^T F to f. Each vertex adds its records in order.
 template <class B>
 struct ScatterContact {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   Vectors<B> f;
-  Real factor = 1;  ///< of the forces
+  Real factor = 1;  ///< factor of the forces
   VertexModel<B> model = {};
-  Real damped = 0;  ///< what mass damping leaves of it; see ContactStep
+  Real damped = 0;  ///< factor of mass damping [s]; see ContactStep
   Bounding bounding = Bounding::none;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
@@ -77,7 +78,7 @@ struct ScatterContact {
   }
 };
 
-/// The force of a record in a state that stays: that of its springs.
+/// Force of a record in a state that stays: the force of its springs.
 template <class B>
 struct StaticContact {
   ContactRecords<B> records;
@@ -94,20 +95,20 @@ struct StaticContact {
   }
 };
 
-/// A record at a state that is `since` after the one it was found in [s].
+/// Record at a state that is `since` [s] after the state at which it was found.
 template <class B>
 struct RecordLater {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   Vectors<B> v;
   ContactRecords<B> records;
-  Real since, span;  ///< span: of the step whose way the record has [s]
+  Real since, span;  ///< span: duration of the step whose way the record has [s]
 
   KOKKOS_INLINE_FUNCTION Real depth(int r) const {
     if (records.law_at(r).is_tie()) return -records.nowhere();
     return records.depth(r) - dot(vector_at<B>(records.normal, r), way(r));
   }
-  /// Against the partner, since then.
+  /// Returns the way of a record against its partner since it was found [m].
   KOKKOS_INLINE_FUNCTION Vec3<Real> way(int r) const {
     if (!(since > 0)) return {};
     return since * records.value(surface, v, r) - (since / span) * vector_at<B>(records.way, r);
@@ -127,15 +128,15 @@ struct ContactEnergy {
       return {{0.5 * static_cast<double>(law.stiffness * dot(now, now))}};
     }
     const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r)));
-    // of the force that there is: unconverged sweeps are a softer spring
+    // by the actual force: unconverged sweeps are a softer spring
     const double of_stretch = -static_cast<double>(dot(vector_at<B>(at.records.force, r), s));
     return {{0.5 * static_cast<double>(law.stiffness) * depth * depth +
              0.5 * Kokkos::max(0.0, of_stretch)}};
   }
 };
 
-/// How deep a record's site is in its partner [m], where it is of that row. A triangle's record has
-/// what is beyond its corners.
+/// Depth of a record's site in its partner [m], for records of row `row`. A triangle's record has
+/// only the depth beyond its corners, so that their depths are added.
 template <class B>
 struct DepthInPartner {
   RecordLater<B> at;

@@ -4,9 +4,9 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Lists of what is in use, made on the device without the host knowing how long they are, and work
-// over them. A list is in ascending order whatever the number of threads: blocks count, one item
-// adds their counts up, blocks write.
+// Lists of the items in use, and work over such lists. They are made on the device, and the host
+// does not know their lengths. A list is in ascending order whatever the number of threads: blocks
+// count, one item adds their counts up, blocks write.
 //
 //   in use     . x . . | x x . . | . . . x      blocks of a fixed length
 //   counts        1         2         1
@@ -14,11 +14,11 @@
 //   list       1 4 5 11
 namespace plica {
 
-/// work(i) for i < count(0), or none of it where `gate`, if there is one, is 0.
+/// Runs work(i) for i < count(0). Where there is a `gate` and it is 0, nothing runs.
 template <class B, class Work>
 struct OverList {
   const double *count, *gate;
-  int parts;  ///< of a CPU, a thread each; a GPU has a work item for all that may be in the list
+  int parts;  ///< work items: the threads of a CPU; on a GPU one for all that may be in the list
   Work work;
   KOKKOS_INLINE_FUNCTION void operator()(int part) const {
     const long long n = gate && !(*gate > 0) ? 0 : static_cast<long long>(*count);
@@ -40,7 +40,7 @@ void over_list(const typename B::Exec& exec, const DeviceList<B>& list, const ch
                      OverList<B, Work>{list.count.data(), gate.data(), parts, work});
 }
 
-/// A term for each in a list, nothing beyond its end.
+/// Terms of the items in a list; 0 beyond its end.
 template <class B, class Term>
 struct TermOfList {
   const double* count;
@@ -57,13 +57,13 @@ void sum_list(const typename B::Exec& exec, const DeviceList<B>& list, const cha
                                            blocks, result);
 }
 
-/// How many of each block are in use, and what their entries sum up to.
+/// Counts the items in use of each block, and sums up their entries.
 template <class B, class Entries>
 struct CountBlock {
   int n, block;
-  Entries entries;  ///< int(int i): of item i; 0: not in use
+  Entries entries;  ///< int(int i): entries of item i; 0: not in use
   Indices<B> used, summed;
-  const double* gate;  ///< nothing is in use where that is 0; null: it is not known
+  const double* gate;  ///< nothing is in use where this is 0; null: unknown
   KOKKOS_INLINE_FUNCTION int begin(int b) const {
     return gate && !(*gate > 0) ? end(b) : b * block;
   }
@@ -78,7 +78,7 @@ struct CountBlock {
   }
 };
 
-/// Counts become begins.
+/// Turns the counts of the blocks into begins.
 template <class B>
 struct AddBlocksUp {
   int blocks;
@@ -95,7 +95,8 @@ struct AddBlocksUp {
   }
 };
 
-/// write(j, i, begin) for the j-th in use, which is item i and whose entries begin there.
+/// Calls write(j, i, begin) for the j-th item in use, which is item i and whose entries begin at
+/// `begin`.
 template <class B, class Entries, class Write>
 struct WriteBlock {
   CountBlock<B, Entries> counted;
@@ -107,7 +108,7 @@ struct WriteBlock {
   }
 };
 
-/// Room to make lists in.
+/// Memory in which lists are made.
 template <class B>
 struct ListMaker {
   static constexpr int block = 256;
@@ -118,8 +119,8 @@ struct ListMaker {
         summed(
             zeros<Indices<B>>("plica::list.summed", static_cast<std::size_t>(items / block + 1))) {}
 
-  /// Of n items those with entries; count(0) is their number. None where `gate`, if there is one,
-  /// is 0.
+  /// Makes the list of those of n items that have entries; count(0) becomes their number. Where
+  /// there is a `gate` and it is 0, the list is empty.
   template <class Entries, class Write>
   void make(const typename B::Exec& exec, const char* label, int n, const Entries& entries,
             const Write& write, const Doubles<B>& count, const Doubles<B>& gate = {}) const {
@@ -131,7 +132,7 @@ struct ListMaker {
   }
 };
 
-/// A slot in use has one entry.
+/// Number of entries of a slot: 1 where it is in use.
 template <class B>
 struct SlotInUse {
   Indices<B> near;
@@ -143,7 +144,7 @@ struct WriteSlot {
   KOKKOS_INLINE_FUNCTION void operator()(int j, int r, int) const { list(j) = r; }
 };
 
-/// use(vertex's number, key) for each of the entries of the i-th record in the list.
+/// Calls use(vertex's number, key) for each of the entries of the i-th record in the list.
 template <class B, class Use>
 KOKKOS_INLINE_FUNCTION void each_entry(const EmbeddedSurface<B>& surface,
                                        const ContactRecords<B>& records, int i, const Use& use) {
@@ -157,7 +158,7 @@ KOKKOS_INLINE_FUNCTION void each_entry(const EmbeddedSurface<B>& surface,
   }
 }
 
-/// How many entries each vertex has; `filled` is 0 before.
+/// Counts the entries of each vertex; `filled` is 0 before.
 template <class B>
 struct CountEntries {
   EmbeddedSurface<B> surface;
@@ -172,7 +173,7 @@ struct EntriesOfVertex {
   Indices<B> filled;
   KOKKOS_INLINE_FUNCTION int operator()(int place) const { return filled(place); }
 };
-/// Lists a vertex; `filled` becomes where its next entry goes.
+/// Lists a vertex; `filled` becomes the place of its next entry.
 template <class B>
 struct ListVertex {
   ContactTranspose<B> of;
@@ -182,7 +183,7 @@ struct ListVertex {
     of.filled(place) = begin;
   }
 };
-/// Puts the entries behind each other, in any order.
+/// Writes the entries one behind the other, in any order.
 template <class B>
 struct PlaceEntries {
   EmbeddedSurface<B> surface;
@@ -193,8 +194,8 @@ struct PlaceEntries {
     });
   }
 };
-/// Sorts a vertex's entries, of which there are few, and adds up those of one record. `filled` is 0
-/// again.
+/// Sorts a vertex's entries, of which there are few, and adds up those of one record. It sets
+/// `filled` to 0 again.
 template <class B>
 struct SortEntries {
   EmbeddedSurface<B> surface;
@@ -222,7 +223,7 @@ struct SortEntries {
   }
 };
 
-/// Lists the slots in use and the vertices that they have a part in.
+/// Lists the slots in use, and the vertices that have a part in them.
 template <class B>
 void list_contacts(const typename B::Exec& exec, const EmbeddedSurface<B>& surface,
                    const ContactRecords<B>& records, const ListMaker<B>& maker) {

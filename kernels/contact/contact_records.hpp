@@ -5,8 +5,8 @@
 #include <plica/kernels/contact/contact_law.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// What contact keeps of a level, without its kernels: what has contact includes this and does not
-// wait for those to compile.
+// Contact data of a level, without its kernels. Code that has contact includes this file and need
+// not wait for the kernels to compile.
 //
 // All contact is in records of one kind: up to four surface points with weights, a normal, a depth,
 // a law. W is the sum of the points' values times their weights; its transpose gives the record's
@@ -16,19 +16,20 @@
 //   a triangle that touches one          w0, w1, w2 of its corners, where it is deepest
 //   a point and a triangle               1; -w0, -w1, -w2
 //   two edges                            1 - s, s; t - 1, -t
-//   a point that is held or attached     as the first and the third
+//   a point that is grasped or attached  as the first and the third
 //
-// Where a record stands says what it is of. Rows of one slot for each surface point come first: one
-// for each obstacle, then, where bodies touch, one of points and triangles, then one of edges,
-// which belong to a point where they begin. Behind them is a row of one slot for each triangle, for
-// each obstacle. Few slots are in use: those are listed, in their order, and work goes over the
-// list.
+// The number of a slot says what its record is of. Rows of one slot for each surface point come
+// first: one for each obstacle; then, where bodies touch, one of points and triangles, then one of
+// edges, which belong to a point where they begin. Behind them is a row of one slot for each
+// triangle, for each obstacle. Few slots are in use: those are listed, in their order, and work
+// goes over the list.
 //
-//   slots   | points, obstacle 0 | obstacle 1 | ... | points and triangles | edges | triangles, obstacle 0 | ...
-//   list      3 5 8 ...                                                        the slots in use, ascending
+//   slots   | points, obstacle 0 | 1 | ... | points and triangles | edges | triangles, obst. 0
+//   list      3 5 8 ...                                           the slots in use, ascending
 namespace plica {
 
-/// Slots or vertices in use, of a field that may be long: their numbers, ascending, and how many.
+/// Numbers of the slots or vertices in use, ascending, and their count. The field itself may be
+/// long.
 template <class B>
 struct DeviceList {
   Indices<B> item;   ///< [most]
@@ -36,20 +37,21 @@ struct DeviceList {
   int most = 0;
 };
 
-/// Surface points that are attached to another body: each by a tie to one place on one of its
-/// triangles, until it tears.
+/// Surface points that are attached to another body. Each has a tie to one place on one of that
+/// body's triangles, until it tears.
 template <class B>
 struct Attachments {
   static constexpr int none = -1, beside = -2;
-  /// [points] which one holds it; beside - q: point q is held at a triangle of it, so that it
-  /// touches nothing either; none; empty: no attachments at all
+  /// [points] attachment that holds the point. beside - q: point q is held at a triangle of this
+  /// point, so that this point touches nothing either. none: not attached. Empty: no attachments at
+  /// all
   Indices<B> attachment;
-  /// of the obstacles; from its number `first` on [points] 1: torn; empty: nothing tears
+  /// Memory of the obstacles. From number `first` on, [points] 1: torn; empty: nothing tears
   Doubles<B> memory;
   int first = 0;
-  Indices<B> triangle;  ///< [points]
-  Vectors<B> weight;    ///< [points][3] of its corners
-  int first_law = 0;    ///< of the attachments' laws, one each
+  Indices<B> triangle;  ///< [points] triangle that holds the point
+  Vectors<B> weight;    ///< [points][3] weights of its corners
+  int first_law = 0;    ///< first of the attachments' laws, one each
 
   KOKKOS_INLINE_FUNCTION bool is_torn(int p) const {
     return memory.extent(0) > 0 && memory(first + p) > 0;
@@ -58,25 +60,27 @@ struct Attachments {
   KOKKOS_INLINE_FUNCTION bool holds(int p) const {
     return attachment.extent(0) > 0 && attachment(p) >= 0 && !is_torn(p);
   }
-  /// It touches nothing.
+  /// Returns true where attachments keep a point from touching anything.
   KOKKOS_INLINE_FUNCTION bool ties(int p) const {
     if (attachment.extent(0) == 0 || attachment(p) == none) return false;
     return !is_torn(attachment(p) <= beside ? beside - attachment(p) : p);
   }
 };
 
-/// Surface points that obstacles hold: each by a tie to where it was, relative to the obstacle,
-/// when that closed. A place for every obstacle and point, numbered as the slots of contact.
+/// Surface points that obstacles have grasped. Each has a tie to where it was, relative to the
+/// obstacle, when the obstacle closed. There is a place for every obstacle and point, numbered as
+/// the slots of contact.
 template <class B>
 struct Grasps {
   using Real = typename B::Real;
-  static constexpr int numbers = 4;  ///< of a place: that place [m], and 1 where the point is held
+  /// Numbers of each place: a position [m], and 1 where the point is grasped
+  static constexpr int numbers = 4;
 
-  int places = 0;     ///< 0: no obstacle can hold anything, no arrays
-  Doubles<B> memory;  ///< of the obstacles; these numbers begin with its number `first`
+  int places = 0;     ///< 0: no obstacle can grasp anything, no arrays
+  Doubles<B> memory;  ///< memory of the obstacles, with these numbers from `first` on
   int first = 0;
-  Indices<B> left_out;  ///< [places] 1: of a point that its obstacle never holds; empty: none
-  int first_law = 0;    ///< of their laws, numbered as the obstacles' own
+  Indices<B> left_out;  ///< [places] 1: the obstacle never grasps the point; empty: there are none
+  int first_law = 0;    ///< first of the laws of grasped points, numbered as the obstacles' laws
 
   KOKKOS_INLINE_FUNCTION int at(int r) const { return first + numbers * r; }
   KOKKOS_INLINE_FUNCTION bool holds(int r) const { return r < places && memory(at(r) + 3) > 0; }
@@ -88,7 +92,8 @@ struct Grasps {
     memory(at(r) + 3) = 1;
   }
   KOKKOS_INLINE_FUNCTION void release(int r) const { memory(at(r) + 3) = 0; }
-  /// How far a point at x is from where an obstacle that has moved so holds it [m].
+  /// Returns how far a point at x is from where the obstacle has grasped it [m]. The obstacle has
+  /// moved by `moved`.
   KOKKOS_INLINE_FUNCTION Vec3<Real> stretch(int r, const Vec3<Real>& x,
                                             const Vec3<double>& moved) const {
     Vec3<Real> s;
@@ -98,7 +103,7 @@ struct Grasps {
   }
 };
 
-/// The surface's triangles and edges, for what touches between its points.
+/// Triangles and edges of the surface, for contact between its points.
 template <class B>
 struct SurfaceMesh {
   int triangles = 0;           ///< 0: contact is of points alone, no arrays
@@ -106,66 +111,69 @@ struct SurfaceMesh {
   Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
   /// [points + 1] into the edges whose end with the lower number is that point
   Indices<B> first_edge;
-  /// [edges * 4] its ends, and the third corners of the triangles left and right of it
+  /// [edges * 4] both ends, and the third corners of the triangles left and right of the edge
   Indices<B> edge;
-  Indices<B> side;  ///< [triangles * 3] the edge from each corner to the next
+  Indices<B> side;  ///< [triangles * 3] edge from each corner to the next
 };
 
-/// What the search for pairs goes by.
+/// Limits of the search for pairs.
 template <class Real>
 struct PairLimits {
-  /// a triangle further than that outside is not looked for, but by what is fast [m]
+  /// Distance outside beyond which a triangle is not looked for, except by fast points [m]
   Real reach = 0;
-  Real margin = 0;  ///< what may be gained on that until the grid is made anew [m]
-  /// on one body, what is nearer than that at rest is a pair across a gap only [m]
+  Real margin = 0;  ///< distance that points may gain on reach until the grid is made anew [m]
+  /// Distance at rest on one body below which two places are a pair across a gap only [m]
   Real apart = 0;
-  bool between = false;  ///< bodies
-  bool self = false;     ///< on one body
+  bool between = false;  ///< pairs between bodies
+  bool self = false;     ///< pairs on one body
 };
 
-/// W^T of the records in use: to each vertex that they have a part in, the records and its weight
-/// in them, by ascending slots.
+/// W^T of the records in use. Each vertex that has a part in records has a list of these and of its
+/// weights in them, by ascending slots.
 template <class B>
 struct ContactTranspose {
   DeviceList<B> vertices;  ///< numbers into EmbeddedSurface::vertex
-  /// [vertices] each vertex's number there; -1: no surface point is in its tetrahedra
+  /// [vertices] number of each vertex in `vertices`; -1: no surface point is in its tetrahedra
   Indices<B> place;
-  Indices<B> filled;       ///< [touched] entries while it is made
-  Indices<B> first, last;  ///< [touched] of the entries of each in the list
-  Indices<B> record;  ///< [entries] slots; while it is made, with the point and its vertex: 16 i +
-                      ///< 4 c + e, i the place in the list
+  Indices<B> filled;       ///< [touched] entries while W^T is made
+  Indices<B> first, last;  ///< [touched] range of the entries of each vertex in the list
+  /// [entries] slots. While W^T is made, with the point and its vertex: 16 i + 4 c + e, i the place
+  /// in the list
+  Indices<B> record;
   Scalars<B> weight;  ///< [entries]
 
-  /// use(slot, weight) for what the i-th in the list of vertices has, always in the same order.
+  /// Calls use(slot, weight) for the entries of the i-th vertex in the list, always in the same
+  /// order.
   template <class Use>
   KOKKOS_INLINE_FUNCTION void each(int i, const Use& use) const {
     for (int e = first(i); e < last(i); ++e) use(record(e), weight(e));
   }
 };
 
-/// How an explicit step takes its contact. A default one: nothing happens in it, and contact is
-/// that of a state that stays.
+/// Contact's part in an explicit step. By default nothing happens in the step, and contact is that
+/// of a state that stays.
 struct ContactStep {
   double span = 0;  ///< h [s]
-  /// how far ahead of the state the depth is taken, with the velocity there [s]
+  /// Time ahead of the state at which the depth is taken, with the velocity there [s]
   double ahead = 0;
-  double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
-  bool ends = true;  ///< these forces are the step's, so that the carried stretches follow its way;
-                     ///< else those of a stage
+  /// Factor of mass damping c [s]: e = (a - c v) / (1 + damped c), and A is divided by 1 + damped c
+  double damped = 0;
+  /// True where these forces are the step's, so that the carried stretches follow its way; else
+  /// they are those of a stage
+  bool ends = true;
 };
 
-/// Where surface points are told of that are further inside an obstacle than makes sense, or
-/// nowhere: the last of them + 1.
+/// Watch for surface points that are further inside an obstacle than makes sense, or not finite.
 template <class B>
 struct DepthWatch {
-  Indices<B> lost;           ///< [1]
-  typename B::Real deepest;  ///< [m]
+  Indices<B> lost;           ///< [1] the last of these points + 1
+  typename B::Real deepest;  ///< depth that still makes sense [m]
   KOKKOS_INLINE_FUNCTION void look(int p, typename B::Real distance) const {
     if (!(distance >= -deepest)) Kokkos::atomic_max(&lost(0), p + 1);
   }
 };
 
-/// The contacts of one level, on the device.
+/// Contacts of one level, on the device.
 template <class B>
 struct ContactRecords {
   using Real = typename B::Real;
@@ -175,45 +183,46 @@ struct ContactRecords {
   int points = 0, obstacles = 0, bodies = 1,
       faces = 0;  ///< faces: triangles, where an obstacle touches between points; else 0
   bool pairs = false;
-  /// a point further than that outside an obstacle is not looked at, but where it is fast [m]
+  /// Distance from an obstacle beyond which a point is not looked at, unless it is fast [m]
   Real reach = 0;
-  Real span = 0;            ///< of the step [s]
-  bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
-  Real edge = 0;            ///< mean, of the surface [m]
+  Real span = 0;            ///< duration of the step [s]
+  bool long_steps = false;  ///< points look along the nearest normal, whatever their path meets
+  Real edge = 0;            ///< mean edge of the surface [m]
   /// @{ shared by all levels
-  /// of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
+  /// Laws of obstacles and bodies, of grasped points, of pairs of bodies, of attachments
   Laws law;
-  Indices<B> body;  ///< of each point; empty: there is one
+  Indices<B> body;  ///< [points] body of each point; empty: there is one
   SurfaceMesh<B> mesh;
   Grasps<B> grasps;
   Attachments<B> attached;
   /// @}
   DeviceList<B> list;   ///< slots in use
-  Doubles<B> touching;  ///< [1] how many of them have a force, or may have one in this step
+  Doubles<B> touching;  ///< [1] number of records that have a force, or may have one in this step
   Indices<B> near;      ///< [slots] 1: in use
   Indices<B> close;     ///< [1] 1: a point is so near an obstacle that triangles may touch it
-  Vectors<B> places;    ///< [points][3] where the surface is at the step's start [m]
+  Vectors<B> places;    ///< [points][3] positions of the surface at the step's start [m]
   Doubles<B> fastest;   ///< [1] largest velocity of a point, squared [m^2/s^2]
-  Stencil point;        ///< [slots] its surface points; -1: none
+  Stencil point;        ///< [slots] surface points of the record; -1: none
   Weights weight;       ///< [slots]
   Indices<B> law_of;    ///< [slots]
-  Vectors<B> normal;    ///< [slots][3] out of the partner; of a tie 0
+  Vectors<B> normal;    ///< [slots][3] out of the partner; 0 for a tie
   Scalars<B> depth;     ///< [slots] > 0 inside [m]
-  /// [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
+  /// [slots][3] way of the obstacle in the step [m]. In an implicit step, where D begins: D = W u -
+  /// way
   Vectors<B> way;
   Vectors<B> stretch;  ///< [slots][3] s [m], carried
   Vectors<B> force;    ///< [slots][3] F, on the sites that have weight 1 [N], carried
-  /// [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
+  /// [slots][3] D without contact's own part; on implicit levels the obstacle's way [m]
   Vectors<B> drift;
   Scalars<B> response;  ///< [slots] rho [1/kg]; 0: no force in this step; explicit levels
   Scalars<B> cap;       ///< [slots] tau [N]; implicit levels
   Blocks<B> block;      ///< [slots][6] dF/dD [kg], weighted; implicit levels
   /// [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
   Blocks<B> concavity;
-  Indices<B> partner;  ///< [points] the triangle each point was near last; -1: none
+  Indices<B> partner;  ///< [points] triangle that each point was near last; -1: none
   ContactTranspose<B> transpose;
 
-  /// use(field) for all that a level has of its own, then for what it shares with others.
+  /// Calls use(field) for all fields of a level's own, and for those that levels share.
   /// @{
   template <class Self, class Use>
   static void each_own(Self& r, const Use& use) {
@@ -245,12 +254,12 @@ struct ContactRecords {
     return rows() * points + obstacle * faces + t;
   }
   KOKKOS_INLINE_FUNCTION bool is_on_face(int r) const { return r >= rows() * points; }
-  /// The obstacle that a record is of; `obstacles` and above: a pair.
+  /// Returns the obstacle of a record; `obstacles` and above: a pair.
   KOKKOS_INLINE_FUNCTION int row(int r) const {
     return is_on_face(r) ? (r - rows() * points) / faces : r / points;
   }
   KOKKOS_INLINE_FUNCTION bool is_pair(int r) const { return row(r) >= obstacles; }
-  /// It couples the vertices of one tetrahedron alone.
+  /// Returns true where a record couples the vertices of one tetrahedron alone.
   KOKKOS_INLINE_FUNCTION bool is_of_one(int r) const { return r < obstacles * points; }
   KOKKOS_INLINE_FUNCTION int body_of(int p) const { return bodies > 1 ? body(p) : 0; }
   KOKKOS_INLINE_FUNCTION int obstacle_law(int obstacle, int p) const {
@@ -263,10 +272,10 @@ struct ContactRecords {
     return grasps.first_law + obstacle_law(obstacle, p);
   }
   KOKKOS_INLINE_FUNCTION const ContactLaw<Real>& law_at(int r) const { return law(law_of(r)); }
-  /// how far away is what is near nothing [m]
+  /// Returns the distance of a point that is near nothing [m].
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }
 
-  /// W of a field; `bounding`: by absolute weights.
+  /// Returns W of a field; `bounding`: by absolute weights.
   KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x,
                                           int r, bool bounding = false) const {
     Vec3<Real> sum;
@@ -279,7 +288,7 @@ struct ContactRecords {
     }
     return sum;
   }
-  /// Where a force of it acts on the sites of positive weight [m].
+  /// Returns the position at which the record's force acts on the sites of positive weight [m].
   KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u,
                                           int r) const {
     Vec3<Real> x;
@@ -294,8 +303,8 @@ struct ContactRecords {
     point(r, 0) = a, point(r, 1) = b, point(r, 2) = c, point(r, 3) = d;
     weight(r, 0) = wa, weight(r, 1) = wb, weight(r, 2) = wc, weight(r, 3) = wd;
   }
-  /// A slot comes into use or goes on in it: its normal, with the carried stretch turned into the
-  /// plane across it.
+  /// Sets the normal of a slot that comes into use or goes on in it. The carried stretch is turned
+  /// into the plane across the normal.
   KOKKOS_INLINE_FUNCTION void use(int r, int its_law, const Vec3<Real>& N, Real its_depth,
                                   const Vec3<Real>& its_way, const Vec3<Real>& spin) const {
     if (near(r) == 0 || law_at(r).is_tie()) {
@@ -311,7 +320,7 @@ struct ContactRecords {
     near(r) = 1, law_of(r) = its_law, depth(r) = its_depth;
     set_vector<B>(normal, r, N), set_vector<B>(way, r, its_way);
   }
-  /// A tie, whose stretch is given.
+  /// Sets a slot to a tie, whose stretch is given.
   KOKKOS_INLINE_FUNCTION void tie(int r, int its_law, const Vec3<Real>& its_stretch,
                                   const Vec3<Real>& its_way) const {
     if (near(r) == 0) set_vector<B>(force, r, {});
@@ -320,7 +329,7 @@ struct ContactRecords {
         set_vector<B>(stretch, r, its_stretch);
   }
   KOKKOS_INLINE_FUNCTION void leave(int r) const { near(r) = 0; }
-  /// A tie whose last force was its strength.
+  /// Returns true for a tie whose last force was its strength.
   KOKKOS_INLINE_FUNCTION bool is_torn(int r) const {
     constexpr Real rounding = Real(1e-3);
     if (near(r) == 0 || !law_at(r).is_tie()) return false;
@@ -328,17 +337,18 @@ struct ContactRecords {
     const Real least = (1 - rounding) * law_at(r).strength;
     return dot(F, F) >= least * least;
   }
-  /// It is in the linear system.
+  /// Returns true where a record is in the linear system.
   KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const {
     return block(r, 0) + block(r, 1) + block(r, 2) > 0;
   }
 };
 
-/// Which weights count by their absolute values: none; where A is no multiple of 1 those of
-/// obstacles alone, since the two sides of a pair answer a force of one direction alike; all.
+/// Weights that count by their absolute values: none; those of obstacles alone; all. Those of
+/// obstacles alone are for an A that is no multiple of 1: the two sides of a pair respond alike to
+/// a force of one direction.
 enum class Bounding { none, obstacles, all };
 
-/// The force [N] that the records put on the i-th vertex in the list.
+/// Returns the force [N] that the records put on the i-th vertex in the list.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> contact_force(const ContactRecords<B>& records, int i,
                                                             Bounding bounding = Bounding::none) {

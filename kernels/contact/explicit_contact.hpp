@@ -3,53 +3,55 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Contact in an explicit step of h and in `him`: taken implicitly in the acceleration of that step,
-// so that its stiffness does not bound it. With e the acceleration without contact, r that by
-// contact, D = h v + h^2 W (e + r) less the obstacle's way. The law (see contact_law.hpp) is solved
-// by sweeps of projected Jacobi from 0:
+// Contact in an explicit step of h and in `him`. It is implicit in the acceleration of that step,
+// so that its stiffness does not bound the step. With e the acceleration without contact and r the
+// one by contact, D = h v + h^2 W (e + r) less the obstacle's way. The law (see contact_law.hpp) is
+// solved by sweeps of projected Jacobi from 0:
 //
-//   lam <- max(0, lam + (kn (d0 - N.D - d*) - lam) / (1 + h^2 kn rho))     q <- q + (kt' x - q) / (1 + h^2 kt' rho), at most mu lam
+//   lam <- max(0, lam + (kn (d0 - N.D - d*) - lam) / (1 + h^2 kn rho))
+//   q   <- q + (kt' x - q) / (1 + h^2 kt' rho), at most mu lam
 //
-// Records are coupled by A, the inverse mass: r = A W^T F. The relaxation of a record is that of
-// rho, the sum of its row of W A W^T over the records that touch: exact for an even pressure, and
-// never too much. W^T takes absolute weights there, which bounds the sum.
+// Records are coupled by A, the inverse mass: r = A W^T F. The relaxation of a record is by rho,
+// the sum of its row of W A W^T over the records that touch. It is exact for an even pressure, and
+// never too much. For rho, W^T takes absolute weights, which bounds the sum.
 //
 //   records                                    vertices
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
 //   2. forces from e and the last r     --W^T-->  f  --A-->  a  --W-->  r      once for every sweep
-//   3. stretches from the last r        s <- s + D across N, shortened by tau/|q| where that is less than 1
+//   3. stretches from the last r        s <- s + D across N, times tau/|q| where that is below 1
 //
-// Sweeps that have not converged cannot creep: the stretch adds up the way that was gone until it
+// Sweeps that have not converged do not creep: the stretch adds up the way that was gone until it
 // holds, however little of its force the sweeps find. Why no number of sweeps takes stability away
 // is in cmake/docs/contact.md.
 namespace plica {
 
-/// What the sweeps need of a step.
+/// Data of a step for the sweeps.
 template <class B>
 struct ExplicitContact {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   Vectors<B> v;
-  /// accelerations without contact, and by the last contact forces [m/s^2]
+  /// Accelerations without contact, and by the last contact forces [m/s^2]
   Vectors<B> free, answer;
   Real h, ahead;
-  /// A answers a force of any direction alike: unit forces of one direction bound all rows of W A
-  /// W^T
+  /// True where A responds alike to a force of any direction: unit forces of one direction bound
+  /// all rows of W A W^T
   bool isotropic;
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(records.normal, r); }
-  /// The depth at the end of a step with this way.
+  /// Returns the depth at the end of a step with way D [m].
   KOKKOS_INLINE_FUNCTION Real end(int r, const Vec3<Real>& D) const {
     return records.depth(r) - dot(normal(r), D);
   }
-  /// What the tangential force goes by for this way; of a tie in all directions.
+  /// Returns x of the law for way D, which gives the tangential force; for a tie it acts in all
+  /// directions.
   KOKKOS_INLINE_FUNCTION Vec3<Real> shear(const LawOfStep<Real>& law, int r,
                                           const Vec3<Real>& D) const {
     return across(D, normal(r)) + law.memory * vector_at<B>(records.stretch, r);
   }
-  /// The unit force that finds rho where forces may have any direction: no less than 1/sqrt 3 of
-  /// the largest.
+  /// Returns the unit force that finds rho where forces may have any direction. Its response is no
+  /// less than 1/sqrt 3 of the largest.
   KOKKOS_INLINE_FUNCTION Vec3<Real> any_direction() const {
     if (isotropic) return {Real(1), Real(0), Real(0)};
     const Real part = Real(0.57735027);
@@ -57,7 +59,8 @@ struct ExplicitContact {
   }
 };
 
-/// The way without contact, and a unit force on every record that touches; counts them.
+/// Computes the way without contact, puts a unit force on every record that touches, and counts
+/// these records.
 template <class B>
 struct StartContact {
   using Real = typename B::Real;
@@ -84,7 +87,7 @@ struct StartContact {
   }
 };
 
-/// One sweep; the first finds the answer to the unit forces and none to the contact's.
+/// One sweep. The first sweep finds the response to the unit forces, without contact forces.
 template <class B>
 struct SweepContact {
   using Real = typename B::Real;
@@ -107,11 +110,12 @@ struct SweepContact {
     set_vector<B>(records.force, r, swept(r, first ? Vec3<Real>{} : force, D));
   }
 
-  /// over h^2 rho, a stiffness that leaves 1/17 of a way into the partner
+  /// Stiffness of a fast record, over h^2 rho: it leaves 1/17 of a way into the partner
   static constexpr Real stop = 16;
-  static constexpr Real early = Real(
-      0.2);  ///< what is fast is stopped so much of that way before the partner: sweeps are few
-  /// What is outside would end an edge inside: it is stopped in this step, however soft its law.
+  /// Part of its way by which a fast record is stopped before the partner, since sweeps are few
+  static constexpr Real early = Real(0.2);
+  /// Returns true for a record that is outside and would end an edge inside. It is stopped in this
+  /// step, however soft its law.
   KOKKOS_INLINE_FUNCTION bool comes_in_fast(int r) const {
     constexpr Real fast = 1;
     return !(step.records.depth(r) > 0) &&
@@ -138,13 +142,14 @@ struct SweepContact {
   }
 };
 
-/// The carried stretches after a step whose forces are the last ones: they follow its way, and slip
-/// at the cap. The work of friction [J].
+/// Updates the carried stretches after a step whose forces are the last ones. The stretches follow
+/// the step's way, and slip at the cap. Returns the work of friction [J].
 template <class B>
 struct StretchContact {
   using Real = typename B::Real;
   ExplicitContact<B> step;
-  Real span;  ///< of the step itself, of which h may be more; see ContactResponse::set_part()
+  /// duration of the step itself, of which h may be more; see ContactResponse::set_part()
+  Real span;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
     const ContactRecords<B>& records = step.records;
     const int r = records.list.item(i);
@@ -157,13 +162,13 @@ struct StretchContact {
       return {};
     }
     const Real part = span / step.h;
-    // h (v + part h (e + r)), of the whole step's numbers
+    // the way of a step of part h, part h (v + part h (e + r)), from the numbers of h
     const Vec3<Real> way =
         step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
     const Vec3<Real> by_force = vector_at<B>(records.drift, r) - way +
                                 step.h * step.h * records.value(step.surface, step.answer, r);
     const Vec3<Real> D = part * (way + part * by_force);
-    // what another sweep would make of it: beyond the cap it slips, in proportion
+    // the force of another sweep: beyond the cap the contact slips, in proportion
     const LawOfStep<Real> of(law, step.h);
     const Vec3<Real> q = dot(force, N) * N - force;
     const Vec3<Real> wanted = of.kt * step.shear(of, r, way + by_force);
@@ -176,10 +181,10 @@ struct StretchContact {
   }
 };
 
-// Where A is the lumped masses' inverse. Contact acts on the vertices that the records in use have
-// a part in, and on no other.
+// Kernels for an A that is the lumped masses' inverse. Contact acts on the vertices that have a
+// part in the records in use, and on no other.
 
-/// e = (f/m - c v) / (1 + damped c); 0 where the motion is given.
+/// Computes e = (f/m - c v) / (1 + damped c); 0 where the motion is given.
 template <class B>
 struct FreeAcceleration {
   using Real = typename B::Real;
@@ -196,7 +201,7 @@ struct FreeAcceleration {
   }
 };
 
-/// answer = m^-1 W^T force / (1 + damped c)
+/// Computes answer = m^-1 W^T force / (1 + damped c).
 template <class B>
 struct AnswerByMass {
   using Real = typename B::Real;

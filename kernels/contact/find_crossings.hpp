@@ -3,14 +3,15 @@
 #include <plica/kernels/contact/find_pairs.hpp>
 #include <plica/kernels/contact/gap_of_edges.hpp>
 
-// Edges against edges: two ridges cross, and no point of one is near the other's surface.
+// Contact of edges with edges: two ridges cross, and no point of one is near the other's surface.
 //
-//   edges that begin in each point --(1)--> list of each point --(2)--> where two meet --(3)--> the point's pair of edges
-//                                   kept as long as              depth, less that      the one which will
-//                                   the grid is                  of their ends         be the deepest
+//   edges that begin    --(1)--> list of      --(2)--> where two meet:  --(3)--> the point's pair
+//   in each point                each point,           depth, less the           of edges: it will
+//                                kept as long as       depth of their            be the deepest
+//                                the grid is           ends
 namespace plica {
 
-/// Geometry of edges in a grid's `x`.
+/// Geometry of edges, at the positions in a grid's `x`.
 template <class B>
 struct FindEdges {
   using Real = typename B::Real;
@@ -21,14 +22,14 @@ struct FindEdges {
   KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const {
     return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)};
   }
-  /// It may cross another.
+  /// Returns true where an edge may cross another.
   KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
     const Attachments<B>& attached = find.records.attached;
     return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) &&
            !attached.ties(end(e, 1)) && may_be_steep(at(e));
   }
-  /// look(own edge, other edge) for all that begin in p and all with a higher number that may cross
-  /// them, in any order; some come twice.
+  /// Calls look(own edge, other edge) for all edges that begin in p, and all with a higher number
+  /// that may cross them. The order is any; some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
     const SurfaceMesh<B>& mesh = find.records.mesh;
@@ -47,7 +48,7 @@ struct FindEdges {
           look(e, f);
     });
   }
-  /// `t` is a triangle of f.
+  /// Returns true where edges e and f are near each other and may touch; `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
     const Real far = find.grid.edge_reach() + find.grid.limits.margin;
     Box3<Real> its(x(f, 0)), own(x(e, 0));
@@ -56,7 +57,8 @@ struct FindEdges {
     return squared_distance_of_segments(x(e, 0), x(e, 1), x(f, 0), x(f, 1)) < far * far &&
            find.may_touch(end(e, 0), t) && find.may_touch(end(e, 1), t);
   }
-  /// The same of what was listed.
+  /// Calls look(own edge, other edge) for the listed pairs of p; without a complete list, by
+  /// search().
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
     const PairGrid<B>& grid = find.grid;
@@ -66,7 +68,7 @@ struct FindEdges {
   }
 };
 
-/// Which edges may cross others while the grid stays.
+/// Marks the edges that may cross others while the grid stays.
 template <class B>
 struct MarkRidges {
   FindEdges<B> edges;
@@ -95,8 +97,9 @@ struct ListCrossings {
   }
 };
 
-/// Each point's slot of two edges, that which will be the deepest after the step. Its depth is what
-/// it is beyond the depths of the ends, so that nothing is pushed twice. After NearestTriangles.
+/// Finds the pair of edges for each point's slot of two edges: the pair that will be the deepest
+/// after the step. Its depth is the part beyond the depths of the ends, so that nothing is pushed
+/// twice. It runs after NearestTriangles.
 template <class B>
 struct DeepestCrossings {
   using Real = typename B::Real;
@@ -105,14 +108,15 @@ struct DeepestCrossings {
     Real depth, later;  ///< now, and after the step
     Vec3<Real> velocity;
     EdgeGap<Real> gap;
-    /// The deeper one, of equals that with the lower numbers: whatever order they come in.
+    /// Returns true where this crossing is deeper, or equal with lower numbers. So the order of the
+    /// search does not matter.
     KOKKOS_INLINE_FUNCTION bool is_before(const Crossing& c) const {
       if (c.own < 0 || later != c.later) return c.own < 0 || later > c.later;
       return own < c.own || (own == c.own && other < c.other);
     }
   };
   FindEdges<B> edges;
-  bool fresh;  ///< nothing is known of the last step
+  bool fresh;  ///< true: nothing is known of the last step
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const ContactRecords<B>& records = edges.find.records;
@@ -156,7 +160,7 @@ struct DeepestCrossings {
     return gap_of_edges(edges.at(e), edges.at(f),
                         edges.find.records.span * (v(e, half) - v(f, half)));
   }
-  /// Less what the ends of either edge are inside by themselves there.
+  /// Returns the depth of a crossing, less the depth of the ends of either edge by themselves.
   KOKKOS_INLINE_FUNCTION Real depth(int e, int f, const EdgeGap<Real>& gap) const {
     const ContactRecords<B>& records = edges.find.records;
     const auto felt = [&](int edge, Real part) {

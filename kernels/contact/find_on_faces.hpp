@@ -8,22 +8,24 @@
 // Contact of a tool that fits between a surface's points.
 namespace plica {
 
-/// The slot of each triangle near an obstacle: where the triangle is deepest, unless a corner is as
-/// deep. Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice:
-/// all of it where they are outside, nothing where the obstacle is flat. A triangle that the
-/// obstacle holds by a corner has none: held points keep their depth.
+/// Finds the contact of each triangle near an obstacle: where the triangle is deepest, unless a
+/// corner is as deep. Its depth is the part beyond the depths of the corners, so that nothing is
+/// pushed twice. This is all of it where the corners are outside, and nothing where the obstacle is
+/// flat. A triangle that the obstacle has grasped by a corner has no contact: grasped points keep
+/// their depth.
 template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
   Shape shape;
   ObstaclePlace<B> place;
   int obstacle;
-  Real reach;    ///< a triangle further than that outside is not looked at [m]
-  Real between;  ///< nor one whose corners are further outside than that [m]
+  Real reach;    ///< distance outside beyond which a triangle is not looked at [m]
+  Real between;  ///< distance outside of all corners beyond which a triangle is not looked at [m]
   ContactRecords<B> records;
-  static constexpr Real from_corner =
-      Real(0.6);  ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
-  static constexpr Real stretch = 4;  ///< what is stretched more may be found late
+  /// Distance to the nearest corner over the longest edge: no place has more than 1 / sqrt 3
+  static constexpr Real from_corner = Real(0.6);
+  /// maximum stretch; a triangle that is stretched more may be found late
+  static constexpr Real stretch = 4;
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
     const int r = records.of_face(obstacle, t);
@@ -85,8 +87,8 @@ struct FindOnFaces {
     return Kokkos::sqrt(square);
   }
 
-  /// What is no less than any depth on the triangle: in a convex solid the least that follows from
-  /// the distances' tangents in its corners and its middle.
+  /// Returns a bound of the depths on the triangle [m]. In a convex solid it is the least bound
+  /// that follows from the distances' tangents in the triangle's corners and its middle.
   KOKKOS_INLINE_FUNCTION Real most(const Vec3<Real>* x) const {
     Real bound = records.nowhere();
     if constexpr (Shape::convex)
@@ -100,8 +102,8 @@ struct FindOnFaces {
     return bound;
   }
 
-  /// The obstacle's normal. Where that is along the triangle, which a thin tool pierces, the
-  /// triangle's own: `inward` the body.
+  /// Returns the obstacle's normal. Where a thin tool pierces the triangle, that normal is along
+  /// the triangle; then it returns the triangle's own, the direction of `inward`, into the body.
   static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal,
                                                   const Vec3<Real>& inward) {
     const Real along = dot(normal, inward), square = dot(inward, inward);

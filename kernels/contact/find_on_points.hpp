@@ -6,11 +6,11 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
-// Which points of a surface an obstacle touches, and what it holds.
+// Contact of a surface's points with an obstacle, and the points that the obstacle grasps.
 namespace plica {
 
-/// The slot of every point against this obstacle. Most are further away than the fastest of them
-/// gets in the step, and are asked for nothing else.
+/// Finds the contact of every point with this obstacle. Most points are further away than the
+/// fastest of them gets in the step; nothing else is computed for those.
 template <class B, class Shape>
 struct FindOnPoints {
   using Real = typename B::Real;
@@ -20,7 +20,7 @@ struct FindOnPoints {
   ObstaclePlace<B> place;
   DepthWatch<B> watch;
   int obstacle;
-  Real between;  ///< a triangle whose corners are all further outside than that touches nothing [m]
+  Real between;  ///< distance outside of all corners beyond which a triangle touches nothing [m]
   ContactRecords<B> records;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const int r = records.of_point(obstacle, p);
@@ -77,8 +77,8 @@ struct FindOnPoints {
   }
 };
 
-/// An obstacle takes hold of every point that is no further than `reach` from it. What it holds
-/// stays as it is.
+/// Makes an obstacle grasp every point that is no further than `reach` from it. Points that it has
+/// grasped already stay as they are.
 template <class B, class Shape>
 struct Grasp {
   using Real = typename B::Real;
@@ -98,11 +98,11 @@ struct Grasp {
   }
 };
 
-/// It lets them go.
+/// Releases the points that an obstacle has grasped.
 template <class B>
 struct LetGo {
   Grasps<B> grasps;
-  int first;  ///< its first place
+  int first;  ///< first place of the obstacle
   KOKKOS_INLINE_FUNCTION void operator()(int p) const { grasps.release(first + p); }
 };
 

@@ -4,10 +4,10 @@
 #include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
 
-// The narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
+// Narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
 namespace plica {
 
-/// Geometry of the surface as it is in a grid's `x`.
+/// Geometry of the surface, at the positions in a grid's `x`.
 template <class B>
 struct FindPairs {
   using Real = typename B::Real;
@@ -21,12 +21,13 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION Vec3<Real> nearest(const Vec3<Real>& at, int t) const {
     return nearest_on_triangle(at, x(corner(t, 0)), x(corner(t, 1)), x(corner(t, 2)));
   }
-  /// From a place on a triangle.
+  /// Returns the vector from a place on a triangle to `at`.
   KOKKOS_INLINE_FUNCTION Vec3<Real> off(Vec3<Real> at, int t, const Vec3<Real>& weight) const {
     for (int c = 0; c < 3; ++c) at -= weight[c] * x(corner(t, c));
     return at;
   }
-  /// look(triangle) for all that p may touch and that may be near, in any order; some come twice.
+  /// Calls look(triangle) for all triangles that p may touch and that may be near. The order is
+  /// any; some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
     if (grid.close(p) <= grid.longest) {
@@ -37,7 +38,7 @@ struct FindPairs {
       if (may_touch(p, t)) look(t);
     });
   }
-  /// The same of all triangles.
+  /// Calls look(triangle) for all triangles that may be near, whether p may touch them or not.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void around(int p, const Look& look) const {
     grid.around(Box3<Real>(vector_at<B>(grid.built, p)), records.mesh.corner, look);
@@ -52,8 +53,8 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION bool allowed(int p, int t) const {
     return one_body(p, t) ? grid.limits.self : grid.limits.between;
   }
-  /// On one body, at rest, they must be far apart, or face each other across a gap: not neighbours,
-  /// nor the sides of something thin.
+  /// Returns true where a point may touch a triangle. On one body, at rest, they must be far apart,
+  /// or face each other across a gap: not neighbours, nor the sides of something thin.
   KOKKOS_INLINE_FUNCTION bool may_touch(int p, int t) const {
     if (!allowed(p, t)) return false;
     if (!one_body(p, t)) return true;
@@ -66,7 +67,7 @@ struct FindPairs {
     return square > grid.limits.apart * grid.limits.apart ||
            (out > 0 && 4 * out * out > square * dot(n, n));
   }
-  /// Not normalised.
+  /// Returns the normal of a triangle, not normalised.
   KOKKOS_INLINE_FUNCTION Vec3<Real> face(int t) const {
     const Vec3<Real> a = x(corner(t, 0));
     return cross(x(corner(t, 1)) - a, x(corner(t, 2)) - a);
@@ -85,15 +86,15 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
     return corner(t, 0) == q || corner(t, 1) == q || corner(t, 2) == q;
   }
-  /// The corner that has all the weight, or -1.
+  /// Returns the corner that has all the weight, or -1.
   KOKKOS_INLINE_FUNCTION int lone_corner(int t, const Vec3<Real>& w) const {
     int last = -1, count = 0;
     for (int c = 0; c < 3; ++c)
       if (w[c] > 0) last = corner(t, c), ++count;
     return count == 1 ? last : -1;
   }
-  /// look(triangle) for all that have the place of the triangle t with these weights: t itself, or
-  /// those around an edge or a vertex.
+  /// Calls look(triangle) for all triangles that have the place of triangle t with these weights.
+  /// They are t itself, or those around an edge or a vertex.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_at(int t, const Vec3<Real>& w, const Look& look) const {
     int on[3], n = 0;
@@ -103,8 +104,8 @@ struct FindPairs {
     for (int s = records.mesh.first(on[0]); s < records.mesh.first(on[0] + 1); ++s)
       if (const int other = records.mesh.triangle(s); n == 1 || has(other, on[1])) look(other);
   }
-  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see
-  /// SignedDistance.
+  /// Returns the normal out of the face, edge or vertex of the triangle that has these weights. It
+  /// is angle-weighted, see SignedDistance.
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
     const int vertex = lone_corner(t, w);
     Vec3<Real> sum;
@@ -113,8 +114,8 @@ struct FindPairs {
     });
     return unit(sum);
   }
-  /// How fast a triangle turns about its normal, times that: the circulation of its corners'
-  /// velocities over twice its area [rad/s].
+  /// Returns how fast a triangle turns about its normal, times the normal [rad/s]. This rate is the
+  /// circulation of its corners' velocities over twice its area.
   KOKKOS_INLINE_FUNCTION Vec3<Real> spin(int t) const {
     Real circulation = 0;
     for (int c = 0; c < 3; ++c) {
@@ -125,8 +126,8 @@ struct FindPairs {
     const Real square = dot(n, n);
     return square > 0 ? (circulation / square) * n : Vec3<Real>{};
   }
-  /// Whether d, from that place, leads into the body. Where all faces around it agree, no normal is
-  /// needed.
+  /// Returns true where d, from the place of triangle t with these weights, leads into the body.
+  /// Where all faces around the place agree, no normal is needed.
   KOKKOS_INLINE_FUNCTION bool leads_in(const Vec3<Real>& d, int t, const Vec3<Real>& w) const {
     bool in = false, out = false;
     each_at(t, w, [&](int other) { (dot(d, face(other)) < 0 ? in : out) = true; });
@@ -134,7 +135,7 @@ struct FindPairs {
   }
 };
 
-/// Lists what may come near each point while the grid stays.
+/// Lists the triangles that may come near each point while the grid stays.
 template <class B>
 struct ListClose {
   using Real = typename B::Real;
@@ -155,28 +156,29 @@ struct ListClose {
   }
 };
 
-/// A depth grows by little more than the way that a site goes against its partner in a step, and
-/// from 0: what counts as inside for other reasons, such as another triangle that is nearest,
-/// stores no energy that nobody has put in.
+/// Returns a depth with limited growth: it grows from 0, by little more than a site's way against
+/// its partner in a step. A site may count as inside for other reasons, such as another triangle
+/// that is nearest. The limit prevents that this stores energy that no force has put in.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way) {
   return Kokkos::min(depth, Kokkos::max(last, Real(0)) + Real(1.5) * Kokkos::sqrt(dot(way, way)));
 }
 
-/// Each point's slot of its nearest triangle, the one with the lowest number where several are.
-/// What is fast looks as far as it may get, and is near what its path leads through.
+/// Finds the nearest triangle for each point's slot, the one with the lowest number where several
+/// are nearest. A fast point looks as far as it may get, and its partner is a triangle that its
+/// path leads through.
 template <class B>
 struct NearestTriangles {
   using Real = typename B::Real;
-  /// A triangle, the point's distance to it and the weights of its corners there.
+  /// Triangle, the point's distance to it, squared, and the weights of its corners there.
   struct Nearest {
     int triangle = -1;
     Real square;
     Vec3<Real> weight;
-    bool inside = false;  ///< of the surface there; of what partner() returns
+    bool inside = false;  ///< the point is inside the surface there; set in what partner() returns
   };
   FindPairs<B> find;
-  bool fresh;  ///< nothing is known of the last step
+  bool fresh;  ///< true: nothing is known of the last step
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const ContactRecords<B>& records = find.records;
@@ -197,7 +199,7 @@ struct NearestTriangles {
   KOKKOS_INLINE_FUNCTION Vec3<Real> away_from(int p, const Nearest& n) const {
     return find.off(find.x(p), n.triangle, n.weight);
   }
-  /// Velocity of a point against a place on a triangle.
+  /// Returns the velocity of a point against a place on a triangle.
   KOKKOS_INLINE_FUNCTION Vec3<Real> speed(int p, int t, const Vec3<Real>& weight) const {
     Vec3<Real> v = find.v(p);
     for (int c = 0; c < 3; ++c) v -= weight[c] * find.v(find.corner(t, c));
@@ -213,7 +215,8 @@ struct NearestTriangles {
     n.inside = find.leads_in(away_from(p, n), n.triangle, n.weight);
     return n;
   }
-  /// Whether all of a triangle is further away than that, by the box around it.
+  /// Returns true where all of a triangle is further away than the root of `square`, by the box
+  /// around it.
   KOKKOS_INLINE_FUNCTION bool is_beyond(const Vec3<Real>& at, int t, Real square) const {
     const Vec3<Real> a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
     Real sum = 0;
@@ -231,7 +234,7 @@ struct NearestTriangles {
       nearest = n;
   }
 
-  /// `last`: the one of the last step, or -1
+  /// Returns the triangle that a point may touch. `last`: the triangle of the last step, or -1.
   KOKKOS_INLINE_FUNCTION Nearest partner(int p, int r, int last) const {
     const PairGrid<B>& grid = find.grid;
     const Real ordinary = grid.limits.reach, far = grid.closing(find.records.span);
@@ -248,8 +251,8 @@ struct NearestTriangles {
     return fast ? on_path(p, r, nearest) : as_before(p, r, nearest);
   }
 
-  /// What a fast point is near: if it will be held before its path leads through anything, what it
-  /// is nearest to, else what it leads through first.
+  /// Returns the triangle that a fast point may touch. It is the nearest one, if that will hold the
+  /// point before its path leads through anything; else the one that the path leads through first.
   KOKKOS_INLINE_FUNCTION Nearest on_path(int p, int r, const Nearest& nearest) const {
     constexpr Real third = Real(1) / 3, little = Real(0.05);
     const Real h = find.records.span, ordinary = find.grid.limits.reach;
@@ -268,8 +271,8 @@ struct NearestTriangles {
     return nearest.square + closing <= little * nearest.square ? nearest : sided(p, near(p, first));
   }
 
-  /// A point that is inside leaves by the nearest face that does not look the other way than the
-  /// one it came by: it does not leave a thin body on the far side.
+  /// Returns the face by which a point that is inside leaves. It is the nearest face that does not
+  /// point the other way than the one it came by: so it does not leave a thin body on the far side.
   KOKKOS_INLINE_FUNCTION Nearest as_before(int p, int r, const Nearest& nearest) const {
     constexpr Real other_way = Real(-0.2);
     if (!nearest.inside || find.records.near(r) == 0) return nearest;
@@ -292,7 +295,7 @@ struct NearestTriangles {
                              -w[0], -w[1], -w[2]);
   }
 
-  /// The slot of a point that is attached to a triangle.
+  /// Sets the slot of a point that is attached to a triangle.
   KOKKOS_INLINE_FUNCTION void stretch(int p, int r) const {
     const ContactRecords<B>& records = find.records;
     const int t = records.attached.triangle(p);
@@ -303,7 +306,7 @@ struct NearestTriangles {
   }
 
   KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
-    // of the reach: no direction is known there
+    // part of the reach; no direction is known at a smaller distance
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);
     const ContactRecords<B>& records = find.records;
     const int t = found.triangle;
@@ -311,7 +314,7 @@ struct NearestTriangles {
     const Vec3<Real>&w = found.weight, d = away_from(p, found);
     const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
     const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
-    // The far side of a thin part of its own body is no partner
+    // The far side of a thin part of its own body is no partner.
     if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart)
       return false;
     Real depth = inside ? distance : -distance;

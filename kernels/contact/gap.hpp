@@ -7,16 +7,16 @@
 
 namespace plica {
 
-/// Distance to a solid [m], positive outside, and the unit normal out of it at the nearest point of
-/// its surface.
+/// Distance to a solid [m], positive outside, and the unit normal out of it. The normal is at the
+/// nearest point of the solid's surface.
 template <class Real>
 struct Gap {
   Real distance;
   Vec3<Real> normal;
 };
 
-/// A unit vector across `axis`, itself a unit vector: the direction of d where it has one, any
-/// where d is on the axis.
+/// Returns a unit vector across `axis`, itself a unit vector. It has the direction of d where d has
+/// one, any direction where d is on the axis. `length` is |d|.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Vec3<Real> direction_across(const Vec3<Real>& axis, const Vec3<Real>& d,
                                                    Real length) {
@@ -27,24 +27,24 @@ KOKKOS_INLINE_FUNCTION Vec3<Real> direction_across(const Vec3<Real>& axis, const
   return (Real(1) / sqrt(dot(any, any))) * any;
 }
 
-/// A point of the host's geometry for a kernel.
+/// Converts a point of the host's geometry for a kernel.
 template <class Real>
 Vec3<Real> vec3(const Point& p) {
   return {static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])};
 }
 
-/// Of shapes between two points: InputError where these are one.
+/// Throws InputError where the two points of a shape are one.
 inline void check_apart(const std::string& path, const Point& from, const Point& to) {
   if (!((to - from).norm() > 0))
     throw InputError(path + ".to, as a distance from .from, is 0; expected a length (m) > 0");
 }
 
-// What a fast point meets in a step. Contact looks along the normal at the nearest place, and a
-// long path may lead elsewhere.
+// Contact of a fast point along its path in a step. Contact elsewhere looks along the normal at the
+// nearest place, but a long path may lead to another place.
 
-/// The part of `path` after which a point that starts at p comes through the triangle a, b, c from
-/// outside; above 1: never. What passes a little beside its edges counts, for neighbours do not
-/// move alike.
+/// Returns the part of `path` after which a point that starts at p comes through the triangle a, b,
+/// c from outside. Above 1: never. A path that passes a little beside the triangle's edges counts,
+/// for neighbours do not move alike.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real time_of_crossing(const Vec3<Real>& p, const Vec3<Real>& path,
                                              const Vec3<Real>& a, const Vec3<Real>& b,
@@ -61,9 +61,10 @@ KOKKOS_INLINE_FUNCTION Real time_of_crossing(const Vec3<Real>& p, const Vec3<Rea
   return inside ? when : never;
 }
 
-/// The gap that a point at x is to go by whose step leads along `path`: where that is long, to the
-/// plane that touches the shape where the path meets it, or none. Goes on by the distance from
-/// every place (sphere tracing: J. C. Hart, The Visual Computer 12, 1996).
+/// Returns the gap for a point at x and the `path` of its step. For a long path, it is the gap to
+/// the plane that touches the shape where the path meets it. Where a long path meets nothing, there
+/// is no gap. The search steps along the path by the distance from every place (sphere tracing: J.
+/// C. Hart, The Visual Computer 12, 1996).
 template <class Real, class Shape>
 KOKKOS_INLINE_FUNCTION Gap<Real> gap_along(const Shape& shape, const Vec3<Real>& x,
                                            const Vec3<Real>& path, Real reach) {

@@ -4,27 +4,28 @@
 
 namespace plica {
 
-/// An edge of a surface: from begin to end, with the third corners of the triangles on its left and
+/// Edge of a surface: from begin to end, with the third corners of the triangles on its left and
 /// its right.
 template <class Real>
 struct SurfaceEdge {
   Vec3<Real> begin, end, left, right;
 };
 
-/// Of one edge against another, of which it is `depth` inside along `normal`, out of the other's
-/// surface.
+/// Gap of one edge against another. The edge is `depth` inside along `normal`, which points out of
+/// the other's surface.
 template <class Real>
 struct EdgeGap {
-  bool meet = false;  ///< else the rest is not set
-  Real depth;         ///< negative: they are apart [m]
+  bool meet = false;  ///< false: the rest is not set
+  Real depth;         ///< negative: the edges are apart [m]
   Vec3<Real> normal;
-  Real own, other;  ///< where on each, from 0 in its begin to 1 in its end
-  /// of the depth that counts: from 0 for flat ridges, where points find all, to 1 for steep ones
+  Real own, other;  ///< place on each edge, from 0 at its begin to 1 at its end
+  /// Part of the depth that counts: from 0 for flat ridges, where points find all, to 1 for steep
+  /// ones
   Real share;
 };
 
-/// How steeply the surface falls on both sides of an edge from a direction across it, the sine of
-/// the angle: above 0 it is a ridge, which is what another one meets first.
+/// Returns how steeply the surface falls on both sides of an edge from a direction across it. It is
+/// the sine of the angle: above 0 the edge is a ridge, which is what another edge meets first.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real steepness(const SurfaceEdge<Real>& e, const Vec3<Real>& up) {
   const Vec3<Real> left = e.left - e.begin, right = e.right - e.begin;
@@ -32,11 +33,12 @@ KOKKOS_INLINE_FUNCTION Real steepness(const SurfaceEdge<Real>& e, const Vec3<Rea
                      -dot(up, right) / Kokkos::sqrt(dot(right, right)));
 }
 
-/// The least steepness of two edges that meet.
+/// Least steepness of two edges that meet.
 template <class Real>
 constexpr Real least_steepness = Real(0.1);
 
-/// Whether an edge is that steep from any direction, or half as much: it may become steeper.
+/// Returns true where an edge has half of least_steepness or more from any direction: it may become
+/// steeper.
 template <class Real>
 KOKKOS_INLINE_FUNCTION bool may_be_steep(const SurfaceEdge<Real>& e) {
   constexpr Real half = Real(0.5) * least_steepness<Real>,
@@ -46,17 +48,17 @@ KOKKOS_INLINE_FUNCTION bool may_be_steep(const SurfaceEdge<Real>& e) {
   return dot(a, right) < 0 && dot(a, b) < most * Kokkos::sqrt(dot(a, a) * dot(b, b));
 }
 
-/// Two edges meet between their ends, ridge to ridge and neither flat, along the normal of both.
-/// The surfaces there are separated along it, as along the axes of edges in the separating axis
-/// test (D. Gregorius, The Separating Axis Test, GDC 2013).
+/// Computes the gap of two edges. Edges meet between their ends, ridge to ridge and neither flat,
+/// along the normal of both. The surfaces there are separated along it, as along the axes of edges
+/// in the separating axis test (D. Gregorius, The Separating Axis Test, GDC 2013).
 ///
 ///     from above:    e           across f:      ^ normal = +-(e x f)
 ///                    |                    ------|------ e
 ///              ------+------ f                  f      depth < 0: how far e is above f
 ///                    |                        /   \    the surface on both sides of f
 ///
-/// `path`: of e against f in the step; edges that come through each other in it are taken where
-/// they do.
+/// `path`: way of e against f in the step. Edges that come through each other in the step are taken
+/// at the place where they do so.
 template <class Real>
 KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of_edges(const SurfaceEdge<Real>& e,
                                                   const SurfaceEdge<Real>& f,
@@ -81,8 +83,8 @@ KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of_edges(const SurfaceEdge<Real>& e,
   return gap;
 }
 
-/// Squared distance of two segments. After C. Ericson, Real-Time Collision Detection (2005),
-/// section 5.1.9.
+/// Returns the squared distance of two segments. After C. Ericson, Real-Time Collision Detection
+/// (2005), section 5.1.9.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real squared_distance_of_segments(const Vec3<Real>& a, const Vec3<Real>& b,
                                                          const Vec3<Real>& c, const Vec3<Real>& d) {

@@ -4,14 +4,15 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Contact in an implicit stage. Records are found once, at the start of the step; D = W u - way is
-// a record's way since then, scaled up to the end of the step where the stage is within it (the
-// obstacle's part of it is that of the whole step). The law (contact_law.hpp) then gives, for the
-// cap tau of the last iterate, the potential phi + psi, its force F and its second derivative
+// Contact in an implicit stage. Records are found once, at the start of the step. D = W u - way is
+// a record's way since then. Where the stage is within the step, D is scaled up to the end of the
+// step (the obstacle's part of it is that of the whole step). The law (contact_law.hpp) then gives,
+// for the cap tau of the last iterate, the potential phi + psi, its force F and its second
+// derivative
 //
 //   C = kn N N^T + lam G + kt' (1 - N N^T), in slip (tau/|x|) (1 - N N^T - t t^T), t = x/|x|
 //
-// which is positive. The system has W^T C W of it:
+// which is positive. The system contains W^T C W:
 //
 //     vertices  --W-->  records  --C-->  records  --W^T-->  vertices
 //
@@ -20,13 +21,13 @@
 // assembled matrix has room for; all other records are in products alone.
 namespace plica {
 
-/// sum += scale block
+/// Adds scale * block to sum.
 template <class Real>
 KOKKOS_INLINE_FUNCTION void add_scaled(SymMat3<Real>& sum, Real scale, const SymMat3<Real>& block) {
   for (int k = 0; k < 6; ++k) sum[k] += scale * block[k];
 }
 
-/// `way` becomes where D begins, the obstacle's own goes to `drift`; caps are those of the last
+/// Sets `way` to where D begins, moves the obstacle's way to `drift`, and sets the caps by the last
 /// forces.
 template <class B>
 struct BeginContact {
@@ -44,22 +45,22 @@ struct BeginContact {
   }
 };
 
-/// What a record has at a state.
+/// Law of each record at a state.
 template <class B>
 struct ImplicitContact {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   State<B> state;
   ContactRecords<B> records;
-  Real h;      ///< of the step [s]
-  Real scale;  ///< of ways, up to the end of the step
-  Real ahead;  ///< how far ahead of the state, with its velocities [s]
+  Real h;      ///< duration of the step [s]
+  Real scale;  ///< factor of ways, up to the end of the step
+  Real ahead;  ///< time ahead of the state, with its velocities [s]
 
   struct Answer {
     Vec3<Real> force, shear;  ///< F, x
     Vec3<Real> way;           ///< D
-    Vec3<Real> normal;        ///< as it has turned
-    Real lam = 0, end = 0;    ///< the depth at the end of the step [m]
+    Vec3<Real> normal;        ///< N, as it has turned in a hollow
+    Real lam = 0, end = 0;    ///< end: the depth at the end of the step [m]
     Real length = 0;          ///< |x|
     bool slips = false;
   };
@@ -87,15 +88,15 @@ struct ImplicitContact {
   }
 };
 
-/// Force [N] of each record and its block `weight` C [kg]; the potential [J], what caps are away
-/// from mu lam [N], and the sum of forces [N].
+/// Computes the force [N] of each record and its block `weight` C [kg]. It sums up the potential
+/// [J], the distance of the caps from mu lam [N], and the forces [N].
 template <class B>
 struct LineariseContact {
   using Real = typename B::Real;
   ImplicitContact<B> contact;
   Real weight;
-  bool blocks;  ///< else the potential alone
-  /// blocks of what slips as if it kept its friction in all directions: it does not overshoot
+  bool blocks;  ///< false: the potential alone
+  /// Blocks of slipping records as if they kept their friction in all directions, against overshoot
   bool secant = false;
 
   KOKKOS_INLINE_FUNCTION Sums<3> operator()(int i) const {
@@ -121,7 +122,7 @@ struct LineariseContact {
   KOKKOS_INLINE_FUNCTION SymMat3<Real> block(int r, const LawOfStep<Real>& law,
                                              const typename ImplicitContact<B>::Answer& a,
                                              bool tie) const {
-    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
+    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // order of SymMat3
     const Vec3<Real> N = vector_at<B>(contact.records.normal, r);
     const Real over = a.slips ? contact.records.cap(r) / a.length : law.kt;
     SymMat3<Real> C{};
@@ -139,7 +140,7 @@ struct LineariseContact {
   }
 };
 
-/// Caps become mu times the normal forces at the state.
+/// Sets the caps to mu times the normal forces at the state.
 template <class B>
 struct UpdateCaps {
   using Real = typename B::Real;
@@ -153,8 +154,8 @@ struct UpdateCaps {
   }
 };
 
-/// The end of a step: its forces, the carried stretches, the depths there. The work of friction
-/// [J].
+/// Ends a step: sets its forces, the carried stretches and the depths there. Returns the work of
+/// friction [J].
 template <class B>
 struct EndContact {
   using Real = typename B::Real;
@@ -181,8 +182,8 @@ struct EndContact {
   }
 };
 
-/// The force of each record is its block times what a field has there. `beside`: of those alone
-/// that are in no matrix.
+/// Computes the product of each record's block with a field's value there. `beside`: only for
+/// records that are in no matrix.
 template <class B>
 struct ContactProduct {
   EmbeddedSurface<B> surface;
@@ -199,8 +200,8 @@ struct ContactProduct {
   }
 };
 
-/// Adds the vertex blocks of W^T C W, [vertices][6]: of a vertex, those of all records that it has
-/// a part in.
+/// Adds the vertex blocks of W^T C W, [vertices][6]. A vertex gets the blocks of all records that
+/// it has a part in.
 template <class B>
 struct AddContactBlocks {
   EmbeddedSurface<B> surface;
@@ -218,9 +219,9 @@ struct AddContactBlocks {
   }
 };
 
-/// A += scale W^T C W of points that touch obstacles: a row of A per work item, its records in
-/// order, the blocks that are stored in it. Vertices of one tetrahedron are coupled in A already,
-/// unless the row's motion is given.
+/// Adds scale W^T C W of points that touch obstacles to A. Each work item adds to a row of A, its
+/// records in order, the blocks that are stored in it. Vertices of one tetrahedron are coupled in A
+/// already, unless the row's motion is given.
 template <class B>
 struct AddContactToMatrix {
   using Real = typename B::Real;

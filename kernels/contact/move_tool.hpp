@@ -4,26 +4,26 @@
 
 namespace plica {
 
-/// A tool with mass, and the springs and dampers by which it follows its motion and its turn.
+/// Tool with mass, and the springs and dampers by which it follows its motion and its turn.
 struct RigidTool {
   double mass = 0, stiffness = 0, damping = 0;  ///< [kg], [N/m], [N s/m]
-  /// about its origin, as the shape has it [kg m^2]
+  /// Inertia about the tool's origin, in the axes of the shape [kg m^2]
   Mat3<double> inertia;
   double angular_stiffness = 0, angular_damping = 0;  ///< [N m/rad], [N m s/rad]
 };
 
-/// A tool with mass m after a macro step T, in which it went on with its velocity: m dv/dt = F + k
-/// (x* - x) + c (v* - v) by implicit Euler for the coupling, stable for any k and c, with the mean
-/// contact force F of that step. x* and v* are where its motion asks it to be at the end of the
-/// next step and how fast it gets there. One that turns likewise: dL/dt = M + k d + c (w* - w), L =
-/// I w, with the mean torque M about its origin and the rotation vector d that leads to the
-/// attitude that its turn asks for. What turns freely keeps L.
+/// Moves a tool with mass m after a macro step T, in which it went on with its velocity. The law m
+/// dv/dt = F + k (x* - x) + c (v* - v) is integrated by implicit Euler for the coupling, which is
+/// stable for any k and c. F is the mean contact force of that step. x* and v* are the position and
+/// the velocity that its motion asks for at the end of the next step. A tool that turns follows
+/// dL/dt = M + k d + c (w* - w), L = I w, with the mean torque M about its origin. The rotation
+/// vector d leads to the attitude that its turn asks for. A tool that turns freely keeps L.
 template <class B>
 struct MoveTool {
-  ObstaclePlace<B> place;           ///< at the end of the step
-  Changing<B, ObstaclePose> asked;  ///< at the end of the next
-  Doubles<B> wrench;                ///< on the body
-  int force;                        ///< its first number in it
+  ObstaclePlace<B> place;           ///< pose at the end of the step
+  Changing<B, ObstaclePose> asked;  ///< pose asked for at the end of the next step
+  Doubles<B> wrench;                ///< force and torque on the body
+  int force;                        ///< number of the tool's first component in wrench
   double span;
   RigidTool tool;
 

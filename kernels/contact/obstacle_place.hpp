@@ -6,42 +6,41 @@
 
 namespace plica {
 
-/// How an obstacle is turned: what its shape has at X is at centre + R (X - centre) and its
-/// displacement.
+/// Rotation of an obstacle: a point X of its shape is at centre + R (X - centre) + displacement.
 struct Attitude {
-  bool turned = false;    ///< false: it translates, and nothing of these is used
-  Vec3<double> centre;    ///< at t = 0 [m]
+  bool turned = false;    ///< false: it translates, and the other members are not used
+  Vec3<double> centre;    ///< centre of the rotation at t = 0 [m]
   Mat3<double> rotation;  ///< R
   Vec3<double> rate;      ///< angular velocity [rad/s]
-  /// The mean velocity of a step of h, of which a place goes the chord: along sin(w h)/(w h) w x r,
-  /// and inward (1 - cos(w h))/(w h)^2 h.
+  /// Factors of the mean velocity of a step of h, over which a place goes the chord: sin(w h)/(w h)
+  /// along w x r, and (1 - cos(w h))/(w h)^2 h inward.
   /// @{
   double along = 1, inward = 0;
   /// @}
 };
 
-/// Where an obstacle is at a time, and how fast.
+/// Pose of an obstacle at a time, and its velocities.
 struct ObstaclePose {
   Vec3<double> displacement, speed;  ///< [m], [m/s]
   double time = 0;                   ///< [s]
   Attitude turn;
 
-  /// Where it has a point that its shape has at X.
+  /// Returns the position of a point that the shape has at X [m].
   KOKKOS_INLINE_FUNCTION Vec3<double> placed(const Vec3<double>& X) const {
     return turn.turned ? turn.centre + turn.rotation * (X - turn.centre) + displacement
                        : X + displacement;
   }
-  /// A place, as the shape has it.
+  /// Returns a position in the axes of the shape [m].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> local(const Vec3<Real>& x) const {
     return turn.turned ? rounded<Real>(turned_back(exact(x))) : x - rounded<Real>(displacement);
   }
-  /// How far that is moved [m].
+  /// Returns how far the obstacle has moved its point that is at x [m].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<double> way(const Vec3<Real>& x) const {
     return turn.turned ? exact(x) - turned_back(exact(x)) : displacement;
   }
-  /// A direction, as the shape has it, and back.
+  /// Returns a direction in the axes of the shape; outward() turns it back.
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>& d) const {
     return turn.turned ? rounded<Real>(transpose(turn.rotation) * exact(d)) : d;
@@ -53,12 +52,12 @@ struct ObstaclePose {
   KOKKOS_INLINE_FUNCTION bool is_turning() const {
     return turn.turned && dot(turn.rate, turn.rate) > 0;
   }
-  /// Its angular velocity [rad/s].
+  /// Returns the angular velocity [rad/s].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> rate() const {
     return is_turning() ? rounded<Real>(turn.rate) : Vec3<Real>{};
   }
-  /// Of what the obstacle has at x [m/s].
+  /// Returns the velocity of the obstacle's point at x [m/s].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (!turn.turned) return rounded<Real>(speed);
@@ -80,7 +79,7 @@ struct ObstaclePose {
   }
 };
 
-/// A unit quaternion w + x i + y j + z k, as the rotation that it tells.
+/// Unit quaternion w + x i + y j + z k of a rotation.
 struct Quaternion {
   double w = 1, x = 0, y = 0, z = 0;
 
@@ -89,7 +88,7 @@ struct Quaternion {
             Vec3<double>{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
             Vec3<double>{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
   }
-  /// After a turn by d [rad], to the third order: q + d q / 2, made a unit again.
+  /// Returns the quaternion after a turn by d [rad], to the third order: q + d q / 2, normalised.
   KOKKOS_INLINE_FUNCTION Quaternion turned(const Vec3<double>& d) const {
     const double a = d[0] / 2, b = d[1] / 2, c = d[2] / 2;
     const Quaternion q{w - a * x - b * y - c * z, x + a * w + b * z - c * y,
@@ -99,7 +98,7 @@ struct Quaternion {
   }
 };
 
-/// The rotation vector d [rad], of at most pi, that leads from R to S: S = exp(d) R.
+/// Returns the rotation vector d [rad], of at most pi, that leads from R to S: S = exp(d) R.
 KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, const Mat3<double>& S) {
   const Mat3<double> D = S * transpose(R);
   const Vec3<double> twice_sine{D[2][1] - D[1][2], D[0][2] - D[2][0], D[1][0] - D[0][1]};
@@ -108,20 +107,20 @@ KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, cons
   return (sine > 1e-9 ? angle / (2 * sine) : 0.5) * twice_sine;
 }
 
-/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool
-/// with mass goes, which the device knows.
+/// Source of an obstacle's pose at a time. It is given by motion and turn, or, for a tool with
+/// mass, by numbers that the device computes.
 template <class B>
 struct ObstaclePlace {
-  /// Of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x, y, z)
-  /// and angular velocity [rad/s].
+  /// Numbers of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x,
+  /// y, z) and angular velocity [rad/s].
   static constexpr int numbers = 14, at_time = 6, attitude = 7, rate = 11;
 
-  /// at t = 0, what torques are about, and what a tool with mass turns about [m]
+  /// Origin at t = 0 [m]: torques are about it, and a tool with mass turns about it
   Vec3<double> origin;
   Changing<B, ObstaclePose> pose;
-  Doubles<B> tools;    ///< [numbers of each obstacle]; empty: it has no mass
-  int first = 0;       ///< its own of them
-  bool turns = false;  ///< a tool that has inertia
+  Doubles<B> tools;    ///< [numbers of each obstacle]; empty: no mass
+  int first = 0;       ///< first number of this obstacle
+  bool turns = false;  ///< true for a tool that has inertia
 
   KOKKOS_INLINE_FUNCTION ObstaclePose now() const {
     if (tools.extent(0) == 0) return *pose;
@@ -139,7 +138,7 @@ struct ObstaclePlace {
     }
     return is;
   }
-  /// What torques are about.
+  /// Returns the point that torques are about [m].
   KOKKOS_INLINE_FUNCTION Vec3<double> about() const { return now().placed(origin); }
   KOKKOS_INLINE_FUNCTION Quaternion last_attitude() const {
     const int q = first + attitude;

@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// The weights of the corners a, b, c at the triangle's point that is nearest to p: exactly 0 for
-/// corners that the nearest face, edge or vertex does not have. After C. Ericson, Real-Time
-/// Collision Detection (2005), section 5.1.5.
+/// Returns the weights of the corners a, b, c at the triangle's point that is nearest to p. They
+/// are exactly 0 for corners that the nearest face, edge or vertex does not have. After C. Ericson,
+/// Real-Time Collision Detection (2005), section 5.1.5.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Vec3<Real> nearest_on_triangle(const Vec3<Real>& p, const Vec3<Real>& a,
                                                       const Vec3<Real>& b, const Vec3<Real>& c) {
@@ -36,7 +36,7 @@ KOKKOS_INLINE_FUNCTION Vec3<Real> nearest_on_triangle(const Vec3<Real>& p, const
   return {1 - v - w, v, w};
 }
 
-/// Where in [0, 1] a convex function is least, to 1/1000: golden section.
+/// Returns the place in [0, 1] where a convex function is least, to 1/1000, by golden section.
 template <class Real, class F>
 KOKKOS_INLINE_FUNCTION Real least_on_unit(const F& f) {
   constexpr Real part = Real(0.6180339887498949);
@@ -54,16 +54,16 @@ KOKKOS_INLINE_FUNCTION Real least_on_unit(const F& f) {
   return at_left <= at_right ? left : right;
 }
 
-/// The weights of a triangle's corners where it is deepest in a convex solid, by golden sections of
-/// golden sections: the distance to such a solid is convex, if not smooth. Where it is the same all
-/// over, that is in the triangle's middle. After Macklin, Erleben, Mueller, Chentanez, Jeschke,
-/// Corse: Local optimization for robust signed distance field collision (2020). A fixed number of
-/// distances, 256 of them. `size` of the triangle [m].
+/// Returns the weights of a triangle's corners where it is deepest in a convex solid, by nested
+/// golden sections. The distance to such a solid is convex, if not smooth. Where the distance is
+/// constant, the place is the triangle's middle. After Macklin, Erleben, Mueller, Chentanez,
+/// Jeschke, Corse: Local optimization for robust signed distance field collision (2020). The number
+/// of distances is fixed: 288. `size` of the triangle [m].
 template <class Real, class Shape>
 KOKKOS_INLINE_FUNCTION Vec3<Real> deepest_on_triangle(const Shape& shape, const Vec3<Real>& a,
                                                       const Vec3<Real>& b, const Vec3<Real>& c,
                                                       Real size) {
-  constexpr Real lean = Real(1e-3);  // to the middle
+  constexpr Real lean = Real(1e-3);  // weight that leans to the middle
   const Vec3<Real> middle = Real(1) / 3 * (a + b + c);
   const auto at = [&](Real s, Real q) {
     const Vec3<Real> x = a + s * ((b - a) + q * (c - b)), d = x - middle;

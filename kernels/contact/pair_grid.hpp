@@ -3,16 +3,17 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// The broad phase of pairs: a uniform grid, of which each cell lists the triangles that may come
-// near a point in it: those whose boxes, made larger by how near that is, reach into it. A cell is
-// as wide as such a box is on average, and cells share a table by a hash. With the grid each point
-// gets a list of the triangles that may come near; where there are more than it holds, it asks the
-// grid itself. Both stay while nothing has moved by more than half of `margin` and nothing is so
-// fast that it meets in one step what is further away, each against the mean of all points: what
-// flies needs no new grid. The device decides that, and leaves out the work.
+// Broad phase of pairs: a uniform grid, of which each cell lists the triangles that may come near a
+// point in it. These are the triangles whose boxes, enlarged by that nearness, reach into the cell.
+// A cell is as wide as such a box is on average, and cells share a table by a hash. With the grid
+// each point gets a list of the triangles that may come near; where there are more than the list
+// holds, the point asks the grid itself. Grid and lists stay while nothing has moved by more than
+// half of `margin`, and while nothing is so fast that in one step it meets triangles further away.
+// Both are taken against the mean of all points, so that a body that flies needs no new grid. The
+// device decides this, and leaves out the work.
 namespace plica {
 
-/// A box along the axes.
+/// Box along the axes.
 template <class Real>
 struct Box3 {
   Vec3<Real> low, high;
@@ -34,7 +35,7 @@ struct Box3 {
   }
 };
 
-/// Of a grid.
+/// Cell of a grid.
 struct GridCell {
   int i, j, k;
   KOKKOS_INLINE_FUNCTION bool operator==(const GridCell& c) const {
@@ -50,31 +51,33 @@ struct PairGrid {
   using Real = typename B::Real;
   PairLimits<Real> limits;
   int buckets = 0;   ///< a power of two
-  Vectors<B> x;      ///< [points][3] now [m]
-  Vectors<B> built;  ///< [points][3] when the grid was made [m]
-  Doubles<B> mean;   ///< [6] of all points: way between these [m], velocity [m/s]
-  /// [2] against it: largest squared way [m^2], and largest squared speed [m^2/s^2]
+  Vectors<B> x;      ///< [points][3] present positions [m]
+  Vectors<B> built;  ///< [points][3] positions when the grid was made [m]
+  Doubles<B> mean;   ///< [6] mean of all points: way from built to x [m], velocity [m/s]
+  /// [2] against the mean: largest squared way [m^2], and largest squared speed [m^2/s^2]
   Doubles<B> moved;
-  Scalars<B> reach;  ///< [1] what it was made for [m]
+  Scalars<B> reach;  ///< [1] reach that the grid was made for [m]
   Doubles<B> stale;  ///< [1] above 0: the grid is being made
-  /// [2] of the triangles' boxes, then: the longest sides' sum and the longest of them [m]
+  /// [2] sum of the longest sides of the triangles' boxes, and the longest of them [m]
   Doubles<B> extent;
-  Scalars<B> width;   ///< [1] of a cell [m]
+  Scalars<B> width;   ///< [1] width of a cell [m]
   Indices<B> first;   ///< [buckets] into item
   Indices<B> filled;  ///< [buckets] items of each
   Indices<B> item;    ///< [triangles * most_cells] triangles, of one cell after the other
-  static constexpr int most_cells = 48;  ///< that a triangle reaches into, on average; see SetWidth
-  Indices<B> ridge;                      ///< [edges] 1: it may cross another, then
-  static constexpr int longest = 32;     ///< list of triangles
-  /// [points] how many triangles may come within reach before the grid is made anew
+  /// Maximum of cells that a triangle reaches into, on average; see SetWidth
+  static constexpr int most_cells = 48;
+  Indices<B> ridge;                   ///< [edges] 1: it might cross another when the grid was made
+  static constexpr int longest = 32;  ///< maximum length of a list of triangles
+  /// [points] number of triangles that may come within reach before the grid is made anew
   Indices<B> close;
-  Indices<B> listed;  ///< [points * longest] these
+  Indices<B> listed;  ///< [points * longest] these triangles
   static constexpr int most_crossings = 16;
-  /// [points] how many edges may come to cross one that begins in the point, likewise
+  /// [points] number of edges that may cross one that begins in the point, before a new grid is
+  /// made
   Indices<B> crossings;
-  Indices<B> crossing;  ///< [points * most_crossings * 2] these: the own edge, the other
+  Indices<B> crossing;  ///< [points * most_crossings * 2] pairs: the own edge, the other
 
-  /// use(field) for all of its own.
+  /// Calls use(field) for all fields of the grid's own.
   template <class Self, class Use>
   static void each_own(Self& g, const Use& use) {
     use(g.built), use(g.mean), use(g.moved), use(g.reach), use(g.stale), use(g.extent),
@@ -82,13 +85,13 @@ struct PairGrid {
     use(g.filled), use(g.item), use(g.ridge), use(g.close), use(g.listed), use(g.crossings);
     use(g.crossing);
   }
-  /// How far two points can move against each other in a step of h [s]; bounded where a state is no
-  /// longer sound.
+  /// Returns how far two points can move against each other in a step of h seconds [m]. It is
+  /// bounded, for states that are not sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
     constexpr Real reaches = 32;  // 16 edges
     return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), reaches * limits.reach);
   }
-  /// How far apart edges are looked for: what is not fast moves less in a step [m].
+  /// Returns how far apart edges are looked for [m]. Edges that are not fast move less in a step.
   KOKKOS_INLINE_FUNCTION Real edge_reach() const {
     return reach(0) > limits.reach ? reach(0) : Real(0.5) * reach(0);
   }
@@ -103,12 +106,12 @@ struct PairGrid {
                            static_cast<unsigned>(k) * 83492791u;
     return static_cast<int>(mixed & static_cast<unsigned>(buckets - 1));
   }
-  /// How much larger than its triangle a box is, on all sides [m].
+  /// Returns how much larger than its triangle a box is, on all sides [m].
   KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + limits.margin; }
   KOKKOS_INLINE_FUNCTION GridCell cell_of(const Vec3<Real>& at) const {
     return {cell(at[0]), cell(at[1]), cell(at[2])};
   }
-  /// use(cell, its bucket) for all cells that a box reaches into.
+  /// Calls use(cell, its bucket) for all cells that a box reaches into.
   template <class Use>
   KOKKOS_INLINE_FUNCTION void each_cell(const Box3<Real>& box, const Use& use) const {
     const GridCell low = cell_of(box.low), high = cell_of(box.high);
@@ -116,8 +119,9 @@ struct PairGrid {
       for (int j = low.j; j <= high.j; ++j)
         for (int k = low.k; k <= high.k; ++k) use(GridCell{i, j, k}, bucket(i, j, k));
   }
-  /// look(triangle) for all that may come near what was in this box when the grid was made: each in
-  /// the first cell that both reach into; where cells share a bucket, some come twice.
+  /// Calls look(triangle) for all triangles that may come near what was in this box when the grid
+  /// was made. Each comes in the first cell that both reach into; where cells share a bucket, some
+  /// come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& corner,
                                      const Look& look) const {
@@ -130,7 +134,7 @@ struct PairGrid {
       }
     });
   }
-  /// Of a triangle, when the grid was made; enlarged.
+  /// Returns the enlarged box of a triangle when the grid was made.
   KOKKOS_INLINE_FUNCTION Box3<Real> box_of(const Indices<B>& corner, int t) const {
     Box3<Real> box(vector_at<B>(built, corner(3 * t)));
     for (int c = 1; c < 3; ++c) box.add(vector_at<B>(built, corner(3 * t + c)));
@@ -139,7 +143,7 @@ struct PairGrid {
   }
 };
 
-/// How a point has moved since the grid was made, and its velocity.
+/// Computes how a point has moved since the grid was made, and its velocity.
 template <class B>
 struct MotionOfPoint {
   EmbeddedSurface<B> surface;
@@ -154,7 +158,7 @@ struct MotionOfPoint {
     return motion;
   }
 };
-/// Sums become means.
+/// Turns sums into means.
 template <class B>
 struct MeanOfPoints {
   Doubles<B> mean;
@@ -164,7 +168,7 @@ struct MeanOfPoints {
   }
 };
 
-/// The squares of both, against the mean.
+/// Computes the squares of a point's way and velocity against the mean.
 template <class B>
 struct MotionAgainstMean {
   MotionOfPoint<B> of;
@@ -204,9 +208,10 @@ struct MeasureTriangles {
   }
 };
 
-/// The mean of the sides l, but no less than a third of the longest: then triangles reach into 48
-/// cells each, or less. One of l in cells of w reaches into (l/w + 2)^3 at most, and n of them with
-/// l <= 3 w and a mean of w into most where n/3 are as long as they can be.
+/// Sets the width of cells: the mean of the boxes' longest sides l, but no less than a third of the
+/// longest. Then triangles reach into 48 cells each on average, or less. A triangle of l in cells
+/// of w reaches into (l/w + 2)^3 cells at most. n triangles with l <= 3 w and a mean of w reach
+/// into the most cells where n/3 are as long as they can be.
 template <class B>
 struct SetWidth {
   PairGrid<B> grid;
@@ -242,8 +247,7 @@ struct CountCells {
   }
 };
 
-/// first(i) = the sum of count(j) for j < i, i up to one more than there are where `last`; left out
-/// where `on` is 0.
+/// Computes first(i) = the sum of count(j) for j < i, i up to n. It is left out where `on` is 0.
 template <class B>
 struct SumBefore {
   Indices<B> count, first;
@@ -257,8 +261,8 @@ struct SumBefore {
   }
 };
 
-/// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes
-/// the nearest.
+/// Puts triangles into their cells, whose counts start from 0 again. The order is any: a search
+/// takes the nearest triangle.
 template <class B>
 struct FillCells {
   Indices<B> corner;

@@ -12,22 +12,26 @@
 #include <plica/kernels/contact/shapes/sphere.hpp>
 
 /// The shapes of obstacles. Each has its own file, with
-///   * a struct of options, in SI, and their table: names, kinds with unit and range, meaning (see core/describe.hpp);
+///   * a struct of options, in SI, and their table: names, kinds with unit and range, meaning
+///     (see core/describe.hpp);
 ///   * `name` and `summary`, as scenes and lists show them;
-///   * `Shape<Real>`, the pointwise signed distance for kernels: Gap operator()(x), with x relative to the obstacle, which
-///     may move; whether the solid is `convex`;
-///   * `shape<Real>(options)`, which makes one of them;
-///   * `origin(options)`, what torques on it are about at t = 0: its centre, of a surface the file's own origin;
-///   * `radius(options)`, of the largest ball in it [m]; of a surface its distances tell;
-///   * where it takes them, `check(path, options)`, InputError for values that do not fit each other, and
-///     `complete(options)`, which puts values where the options leave them open.
+///   * `Shape<Real>`, the pointwise signed distance for kernels: Gap operator()(x), with x relative
+///     to the obstacle, which may move; whether the solid is `convex`;
+///   * `shape<Real>(options)`, which makes a Shape;
+///   * `origin(options)`, the point that torques on it are about at t = 0: its centre, or for a
+///     surface the origin of the file;
+///   * `radius(options)`, the radius of the largest ball in it [m]; a surface has none, it follows
+///     from the distances;
+///   * where it has them, `check(path, options)`, which throws InputError for values that do
+///     not fit each other, and `complete(options)`, which sets values that the options leave open.
 namespace plica {
 
-/// Every obstacle shape there is. One more: its file above, its name here.
+/// List of all obstacle shapes. To add one, include its file and name it here.
 using ObstacleShapes =
     TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, Cone, SampledSurface>;
 
-/// f(S{}, options) for the shape S whose options these are, completed; false where there is none.
+/// Calls f(S{}, options) for the shape S of these options, completed. Returns false where there is
+/// none.
 template <class F>
 bool visit_shape(const ShapeOptions& shape, const F& f) {
   bool found = false;

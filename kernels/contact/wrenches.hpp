@@ -4,10 +4,10 @@
 #include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// What obstacles do to the body, and bodies to each other.
+// Forces and torques of obstacles on the body, and of bodies on each other.
 namespace plica {
 
-/// A force at a place, and its torque about another.
+/// Returns a force at a place, and its torque about another place.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& f,
                                          const Vec3<double>& about) {
@@ -20,7 +20,7 @@ KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& 
   return {{force[0], force[1], force[2], torque[0], torque[1], torque[2]}};
 }
 
-/// Force of one obstacle, and its torque about a point.
+/// Force of one obstacle, and its torque about the obstacle's origin.
 template <class B>
 struct ObstacleWrench {
   EmbeddedSurface<B> surface;
@@ -35,7 +35,7 @@ struct ObstacleWrench {
   }
 };
 
-/// What the other bodies do to one of several, the same about a point.
+/// Force of the other bodies on one of several bodies, and its torque about [0, 0, 0].
 template <class B>
 struct BodyWrench {
   using Real = typename B::Real;
@@ -58,17 +58,17 @@ struct BodyWrench {
   }
 };
 
-/// How the last forces are part of a step's impulse, where a method carries something on: x =
-/// weight F + again x_before is carried, and the impulse is now x + before x_before.
+/// Weights of the last forces in a step's impulse, for methods that carry something on. x = weight
+/// F + again x_before is carried, and the impulse is now x + before x_before.
 struct CarriedImpulse {
   double weight = 0, again = 0, now = 1, before = 0;
 };
 
-/// Adds that of one obstacle or body.
+/// Adds the impulse of one obstacle or body.
 template <class B>
 struct AddImpulse {
   Doubles<B> sums, impulse, carried;
-  int first;  ///< the obstacle's first number
+  int first;  ///< first number of the obstacle or body
   CarriedImpulse of;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     for (int k = first; k < first + 6; ++k) {
@@ -79,14 +79,14 @@ struct AddImpulse {
   }
 };
 
-/// work += its sum
+/// Adds a sum to work.
 template <class B>
 struct AddWork {
   Doubles<B> sums, work;
   KOKKOS_INLINE_FUNCTION void operator()() const { work(0) += sums(0); }
 };
 
-/// How many records of an obstacle press, and how many of these slip: friction is at its cap.
+/// Counts the records of an obstacle that press, and those that slip: friction is at its cap.
 template <class B>
 struct CountSlips {
   using Real = typename B::Real;
@@ -105,12 +105,13 @@ struct CountSlips {
   }
 };
 
-/// wrench = what levels' impulses sum up to over the time that they took, `per_time` its inverse.
+/// Computes wrench = the sum of the levels' impulses over the time that they took, `per_time` its
+/// inverse.
 template <class B>
 struct SumImpulses {
   Doubles<B> impulse, wrench;
   double per_time;
-  bool first;  ///< of the levels
+  bool first;  ///< true for the first of the levels
   KOKKOS_INLINE_FUNCTION void operator()(int k) const {
     wrench(k) = (first ? 0.0 : wrench(k)) + per_time * impulse(k);
   }

@@ -2,22 +2,22 @@
 #pragma once
 #include <plica/kernels/elastic/nodal_elements.hpp>
 
-// Implicit stages of nearly incompressible bodies. Newton's method on u alone takes its tangent
-// with the pressures excess (J~ - 1) of where it stands: a step that bends changes volumes in its
-// second order, times a stiffness of thousands of mu, and the tangent there has large pressures of
-// either sign. With the pressure q of each domain as an unknown of its own (Simo, Taylor & Pister
-// 1985),
+// Mixed pressures of implicit stages of nearly incompressible bodies. Newton's method on u alone
+// takes its tangent with the pressures excess (J~ - 1) at the present u. A step that bends changes
+// volumes in its second order, times a stiffness of thousands of mu, and the tangent there has
+// large pressures of either sign. With the pressure q of each domain as an unknown of its own
+// (Simo, Taylor & Pister 1985),
 //
 //   sum_a V_a [q_a (J~_a - 1) - q_a^2 / 2 excess]   instead of   sum_a V_a excess/2 (J~_a - 1)^2,
 //
 // Newton's equations, q eliminated, have the same right side and the same stiffness against a
-// change of volume, but the smooth q of the last iteration where the tangent has a pressure. Both
-// end where q = excess (J~ - 1). Potentials are compared by the augmented Lagrangian sum_a V_a [q
-// (J~ - 1) + g/2 (J~ - 1 - q / excess)^2] at one q, with a g of the order of mu: Newton's direction
-// leads down in it, while the energy rises with the square of the step.
+// change of volume. Where the tangent has a pressure, they have the smooth q of the last iteration.
+// Both methods end where q = excess (J~ - 1). Potentials are compared by the augmented Lagrangian
+// sum_a V_a [q (J~ - 1) + g/2 (J~ - 1 - q / excess)^2] at one q, with a g of the order of mu.
+// Newton's direction leads down in it, while the energy rises with the square of the step.
 namespace plica {
 
-/// J + cof F : dF of each slot at u, where du has led to u already.
+/// Computes J + cof F : dF of each slot at u - du, where u includes du already.
 template <class B>
 struct ForeseenVolumes {
   using T = RowPack<B>;
@@ -34,7 +34,8 @@ struct ForeseenVolumes {
   }
 };
 
-/// The pressures that a change du which has led to u has foreseen: excess (S (J + cof F : du) - 1).
+/// Computes the mixed pressures after a change du: excess (S (J + cof F : du) - 1) at u - du, where
+/// u includes du already.
 template <class B>
 void carry_pressures(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
                      const Vectors<B>& du) {

@@ -3,7 +3,7 @@
 #include <plica/core/fields.hpp>
 #include <plica/kernels/materials/material.hpp>
 
-// Damping by stiffness over a time tau: each element has a second Piola-Kirchhoff stress against
+// Damping by stiffness over a time tau. Each element has a second Piola-Kirchhoff stress against
 // the rate of Green's strain (Kelvin and Voigt's law),
 //
 //   S_d = tau C0 : Edot,   Edot = sym(F^T Fdot),   P_d = F S_d,   C0 = dP/dF at rest.
@@ -14,7 +14,8 @@
 // state. At rest it is that of Rayleigh, tau K.
 namespace plica {
 
-/// P_d over tau for a change dF in the place of Fdot: a tangent as those of materials are.
+/// Tangent P_d / tau for a change dF in the place of Fdot, with the functions of a material's
+/// tangent.
 template <class Material, class T>
 struct DampingTangent {
   Mat3<T> F;
@@ -36,14 +37,15 @@ struct DampingTangent {
   }
 };
 
-/// How much of it there is in a patch's product.
+/// Rate of damping in the product of a patch.
 template <class B>
 struct DampingRate {
   using Real = typename B::Real;
   /// [patches] tau [s], or empty
   Scalars<B> damping;
-  Real over = 0;                                                     ///< times this
-  bool counts() const { return over > 0 && damping.extent(0) > 0; }  ///< whether there is any
+  Real over = 0;  ///< factor of tau
+  /// Returns true where there is damping.
+  bool counts() const { return over > 0 && damping.extent(0) > 0; }
   KOKKOS_INLINE_FUNCTION Real operator()(int patch) const { return over * damping(patch); }
 };
 

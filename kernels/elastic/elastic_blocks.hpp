@@ -9,24 +9,27 @@
 // Assembles A = (1 + b c) M + a K(u) + b D(u) as blocks, see ImplicitWeights and
 // damping_stress.hpp.
 //
-//   1. ElasticBlocks, per patch    the six blocks between two corners of each element, into scratch; then, pair by pair of the patch's
-//                                  vertices, their sum, to the matrix, or to `shares` where other patches have the pair as well
+//   1. ElasticBlocks, per patch    the six blocks between two corners of each element, into
+//                                  scratch; then, pair by pair of the patch's vertices, their sum,
+//                                  to the matrix, or to `shares` where other patches have the pair
+//                                  as well
 //   2. AddShares                   the shares of pairs of several patches, to the matrix
-//   3. OwnBlocks                   a vertex's own block: the mass, minus the sum of its row, as the stiffness has no force against
-//                                  a motion of the whole body
+//   3. OwnBlocks                   a vertex's own block: the mass, minus the sum of its row, as the
+//                                  stiffness has no force against a motion of the whole body
 //
 // All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
 // 12 (slots), and 9 s per stored block of the matrix, written, and read once or twice more; in
 // scratch, which a second-level cache holds, 56 s written and 54 s read.
 namespace plica {
 
-constexpr int element_numbers = 56;  ///< of the six blocks, in whole quarters of a register
+/// Numbers of an element's six blocks, filled up to whole quarters of a register.
+constexpr int element_numbers = 56;
 
-/// Where block (p, q), p < q, of an element stands among its six.
+/// Returns the place of block (p, q), p < q, of an element among its six.
 KOKKOS_INLINE_FUNCTION constexpr int element_block(int p, int q) { return p * (5 - p) / 2 + q - 1; }
 
-/// scale * volume (dP/dF : grad N_q) grad N_p for corners p < q, column by column; those of corner
-/// 0 by balance.
+/// Computes scale * volume (dP/dF : grad N_q) grad N_p for corners p < q, column by column. The
+/// blocks of corner 0 follow by balance.
 template <class T, class Tangent>
 KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const ElementShape<T>& shape,
                                            const T& scale, T (&K)[element_numbers]) {
@@ -54,6 +57,7 @@ KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const Element
   K[54] = K[55] = T(0);
 }
 
+/// Step 1: sums up the blocks of elements, pair by pair of a patch's vertices.
 template <class B, class Material, class Tangent, bool Damped>
 struct ElasticBlocks {
   using Real = typename B::Real;
@@ -135,7 +139,7 @@ struct ElasticBlocks {
   }
 };
 
-/// Blocks that several patches have a share in.
+/// Step 2: adds up the blocks in which several patches have a share.
 template <class B>
 struct AddShares {
   PatchPairs<B> pairs;
@@ -149,7 +153,7 @@ struct AddShares {
   }
 };
 
-/// Row a's own block: its mass, minus the sum of the row's other blocks.
+/// Step 3: computes row a's own block, its mass minus the sum of the row's other blocks.
 template <class B>
 struct OwnBlocks {
   using Real = typename B::Real;
@@ -160,7 +164,7 @@ struct OwnBlocks {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const int own = A.diagonal(a), at = A.place(own);
-    Real sum[9] = {};  // turned or not: of the answer, which is symmetric, half of both is taken
+    Real sum[9] = {};  // blocks turned or not: the result is the symmetric part of their sum
     const auto subtract = [&](int first, int last) {
       for (int s = first; s < last; ++s)
         for (int k = 0; k < 9; ++k) sum[k] -= A.value(A.place(s), k);
@@ -172,7 +176,7 @@ struct OwnBlocks {
   }
 };
 
-/// 2. and 3.
+/// Runs steps 2 and 3.
 template <class B>
 void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
                    const ImplicitWeights& weights, const Blocks9<B>& shares,
@@ -184,7 +188,7 @@ void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const Pa
       OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
 }
 
-/// A of vertices that are free; the others' rows keep their mass alone.
+/// Assembles A of vertices that are free; the rows of the others keep their mass alone.
 template <class B, class Material, template <class> class Tangent>
 void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
                     const Vectors<B>& u, const ImplicitWeights& weights, const Blocks9<B>& shares,
@@ -203,7 +207,7 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }
 
-// What is the same for all materials is compiled once, in elastic_blocks.cpp.
+// Functions that are equal for all materials are compiled once, in elastic_blocks.cpp.
 #define PLICA_ELASTIC_BLOCKS(EXTERN, ...)                                                  \
   EXTERN template void finish_blocks<__VA_ARGS__>(                                         \
       const __VA_ARGS__::Exec&, const Model<__VA_ARGS__>&, const PatchPairs<__VA_ARGS__>&, \

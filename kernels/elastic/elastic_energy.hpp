@@ -5,14 +5,14 @@
 
 namespace plica {
 
-/// Elastic energy [J], as a vertex field that adds up to it: a quarter of each element's energy per
-/// corner, in the x component. It shares the force's path and so its order of summation.
+/// Elastic energy [J], as a vertex field that adds up to it. The x component has a quarter of each
+/// element's energy per corner. The energy is summed in the same order as the force.
 template <class B, class Material>
 struct ElasticEnergy {
   static constexpr int fields = 1;
   Vectors<B> field[1];
-  Scalars<B> constants;  ///< of the patches
-  Scalars<B> fibres;     ///< likewise, or empty
+  Scalars<B> constants;  ///< [patches] constants of the material
+  Scalars<B> fibres;     ///< directions of each element's fibres, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,

@@ -12,10 +12,10 @@ template <class B, class Material, bool Watched>
 struct ElasticForce {
   static constexpr int fields = 1;
   Vectors<B> field[1];
-  Scalars<B> constants;   ///< of the patches
-  ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0
+  Scalars<B> constants;   ///< [patches] constants of the material
+  ElementFlags<B> flags;  ///< raised by det F <= 0, where Watched
   Changing<B, int> evaluation;
-  Scalars<B> fibres = {};  ///< likewise, or empty
+  Scalars<B> fibres = {};  ///< directions of each element's fibres, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,
@@ -38,7 +38,7 @@ struct ElasticForce {
   }
 };
 
-/// The same with the damping force -D(u) v.
+/// Internal force of linear tetrahedra with the damping force -D(u) v [N].
 template <class B, class Material, bool Watched>
 struct DampedElasticForce {
   static constexpr int fields = 2;
@@ -60,7 +60,8 @@ struct DampedElasticForce {
   }
 };
 
-/// Damped where the patches are; with empty flags nobody watches for inverted elements.
+/// Computes the internal force, with damping where the patches have it. Without flags, nothing
+/// watches for inverted elements.
 template <class B, class Material>
 void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {

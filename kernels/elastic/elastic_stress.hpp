@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// von Mises' stress [Pa] and volume ratio J of every tetrahedron, F = I + grad u; for output, one
-/// element at a time.
+/// Stress of von Mises [Pa] and volume ratio J of every tetrahedron, F = I + grad u. It is for
+/// output, one element at a time.
 template <class B, class Material>
 struct ElasticStress {
   using Real = typename B::Real;
@@ -17,7 +17,7 @@ struct ElasticStress {
   Patches<B> patches;
   Vectors<B> u;
   Scalars<B> equivalent, ratio;  ///< [tets of the mesh]
-  Scalars<B> lost;               ///< to relaxation; see StressMemory
+  Scalars<B> lost;               ///< relaxed stress; see StressMemory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = league_rank(team), first = patches.first_pack(p) * lanes,

@@ -5,16 +5,16 @@
 
 namespace plica {
 
-/// Minus the tangent stiffness times a direction, (-K(u) p)_a = -V (dP/dF : grad p) grad N_a: the
-/// change of the internal force [N] for a change p of the displacement [m], matrix-free. Damped:
-/// with -D(u) p.
+/// Product of minus the tangent stiffness with a direction: (-K(u) p)_a = -V (dP/dF : grad p) grad
+/// N_a. It is the change of the internal force [N] for a change p of the displacement [m],
+/// matrix-free. Damped: with -D(u) p.
 template <class B, class Material, bool Damped = false>
 struct ElasticTangent {
   static constexpr int fields = 2;
   Vectors<B> field[2];   ///< u, p
-  Scalars<B> constants;  ///< of the patches
+  Scalars<B> constants;  ///< [patches] constants of the material
   DampingRate<B> rate;
-  Scalars<B> fibres = {};  ///< likewise, or empty
+  Scalars<B> fibres = {};  ///< directions of each element's fibres, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape,
@@ -28,15 +28,15 @@ struct ElasticTangent {
 };
 
 /// Column `direction` of every vertex's own 3x3 block of K(u): the force at a vertex for its own
-/// unit displacement. Damped: with that of D(u).
+/// unit displacement. Damped: with the column of D(u).
 template <class B, class Material, bool Damped>
 struct ElasticDiagonal {
   static constexpr int fields = 1;
   Vectors<B> field[1];
-  Scalars<B> constants;  ///< of the patches
+  Scalars<B> constants;  ///< [patches] constants of the material
   int direction;
   DampingRate<B> rate;
-  Scalars<B> fibres = {};  ///< likewise, or empty
+  Scalars<B> fibres = {};  ///< directions of each element's fibres, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,

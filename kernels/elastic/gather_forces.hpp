@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// f_a = m_a g + sum of the shares in the vertex, in their order [N]. 24 s bytes per vertex written
-/// and, with about 2.4 copies, 10 + 7 s read (s = sizeof(Real)).
+/// Computes f_a = m_a g + sum of the shares in the vertex, in their order [N]. 24 s bytes per
+/// vertex written and, with about 2.4 copies, 10 + 7 s read (s = sizeof(Real)).
 template <class B>
 struct GatherForces {
   using Real = typename B::Real;
@@ -20,7 +20,7 @@ struct GatherForces {
   }
 };
 
-/// f = m g
+/// Computes f = m g.
 template <class B>
 struct WeighVertices {
   Scalars<B> mass;

@@ -3,21 +3,22 @@
 #include <plica/kernels/elastic/nodal_diagonal.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
-// Projected tangents of nodal elements, worked out once for a state and read in every product: C_a
-// = dP/dF at F_a with its negative eigenvalues dropped, less the stabiliser beta mu. Without
-// damping and without smoothed pressures, which act beyond a domain.
+// Projected tangents of nodal elements, computed once for a state and read in every product. C_a =
+// dP/dF at F_a with its negative eigenvalues dropped, less the stabiliser beta mu. There is no
+// damping in them, and no smoothed pressures, which act beyond a domain.
 namespace plica {
 
-/// Numbers of a symmetric 9x9 matrix: rows of its lower triangle.
+/// Count of numbers of a symmetric 9x9 matrix: rows of its lower triangle.
 inline constexpr int symmetric_nine = 45;
 
-/// Where they fit: else tangents are projected anew in every product.
+/// Returns true where tangents are kept: in nodal elements without damping and smoothed pressures.
+/// Elsewhere tangents are projected anew in every product.
 template <class B>
 bool keeps_tangents(const NodalRows<B>& rows) {
   return rows.slices > 0 && rows.damping.extent(0) == 0 && rows.excess.extent(0) == 0;
 }
 
-/// Of the state whose gradients are kept.
+/// Computes the tangents of the state whose gradients are kept.
 template <class B, class Material>
 struct KeepTangents {
   using T = RowPack<B>;
@@ -69,7 +70,7 @@ struct KeptTangent {
   }
 };
 
-/// As NodalDiagonal.
+/// Record of diagonal_record() for each domain, divided by V_a, by the kept tangents.
 template <class B>
 struct KeptDiagonal {
   static constexpr int fields = 1;
@@ -88,7 +89,7 @@ struct KeptDiagonal {
   }
 };
 
-/// level.nodal.tangent, of the state whose gradients are kept.
+/// Computes level.nodal.tangent for the state whose gradients are kept.
 template <class B, class Material>
 void keep_nodal_tangents(const typename B::Exec& exec, const Level<B>& level) {
   const NodalRows<B>& rows = level.model.rows;

@@ -4,15 +4,16 @@
 #include <plica/kernels/elastic/stress_memory.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 
-// What relaxation takes off the forces and energies of any material: see stress_memory.hpp.
+// Relaxed stress, which relaxation takes off the forces and energies of any material: see
+// stress_memory.hpp.
 namespace plica {
 
-/// Of every slot `lost`, from the memory: stress S_n, terms H_i.
+/// Computes the relaxed stress `lost` of every slot from the memory: stress S_n, terms H_i.
 template <class B>
 struct CombineMemory {
   using Real = typename B::Real;
   StressMemory<B> stress;
-  /// [regions][1 + terms] of S_n and of each -H_i
+  /// [regions][1 + terms] factors of S_n and of each -H_i
   Scalars<B> weight;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {  // number i of `lost`
     constexpr int six = 6 * B::lanes;
@@ -25,7 +26,7 @@ struct CombineMemory {
   }
 };
 
-/// The forces of linear elements, f_a += V F lost grad N_a.
+/// Forces of the relaxed stress in linear elements, f_a += V F lost grad N_a.
 template <class B>
 struct LostForce {
   static constexpr int fields = 1;
@@ -41,7 +42,7 @@ struct LostForce {
   }
 };
 
-/// lost:(F^T F - 1) / 2, by which the energy of a step is less.
+/// Returns lost:(F^T F - 1) / 2, by which relaxation lowers the energy of a step.
 template <class T>
 KOKKOS_INLINE_FUNCTION T lost_energy(const Mat3<T>& F, const SymMat3<T>& lost) {
   const Mat3<T> L = matrix_of(lost);
@@ -63,7 +64,7 @@ struct LostEnergy {
   }
 };
 
-/// Likewise of nodal elements.
+/// Stress -F lost of the relaxed stress in nodal elements.
 template <class B>
 struct LostRows {
   static constexpr int fields = 1;
@@ -95,7 +96,7 @@ struct LostRowEnergy {
   }
 };
 
-/// Adds the forces to level.partial.
+/// Adds the forces of the relaxed stress to level.partial.
 template <class B>
 void add_lost_force(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
@@ -109,7 +110,7 @@ void add_lost_force(const typename B::Exec& exec, const Level<B>& level, const V
               RowForces<B, true>{rows, level.nodal.records, level.partial});
 }
 
-/// Takes the energy off level.partial, in the x components.
+/// Takes the energy of the relaxed stress off level.partial, in the x components.
 template <class B>
 void add_lost_energy(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;

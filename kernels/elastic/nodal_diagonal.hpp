@@ -2,19 +2,20 @@
 #pragma once
 #include <plica/kernels/elastic/nodal_elements.hpp>
 
-// The vertices' own blocks of the stiffness of nodal elements. A displacement of vertex b along d
-// moves every domain a around it by G_a = d (x) C_ab / V_a, so that with the tangents T_a = dP/dF
-// at F_a
+// Diagonal blocks of the stiffness of nodal elements, one for each vertex. A displacement of vertex
+// b along d moves every domain a around it by G_a = d (x) C_ab / V_a. With the tangents T_a = dP/dF
+// at F_a,
 //
-//   d.K_bb d = sum_a V_a G_a:(T_a - beta mu):G_a + beta mu w_bb |d|^2,   a: the neighbours of b, and b itself.
+//   d.K_bb d = sum_a V_a G_a:(T_a - beta mu):G_a + beta mu w_bb |d|^2,
 //
-// Where it damps, T_a has that of damping_stress.hpp beside it. Of smoothed pressures, which act
-// beyond neighbours, nothing is in it.
+// where a are the neighbours of b, and b itself. With damping, the tangent of damping_stress.hpp is
+// added to T_a. The effect of smoothed pressures, which act beyond neighbours, is left out.
 namespace plica {
 
-/// As a record (Q, v), of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a
-/// neighbour's c = C_ab makes of a domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z
-/// c_z, c_x c_y, c_x c_z, c_y c_z, times `weight`. dP: by the column of F that moves.
+/// Writes a domain's stiffness as a record (Q, v) of coefficients. A neighbour's c = C_ab makes a
+/// symmetric 3x3 matrix of that stiffness; the record is for its rows `direction` and the next
+/// (cyclic). The coefficients are those of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z,
+/// times `weight`. dP: by the column of F that moves.
 template <class T>
 KOKKOS_INLINE_FUNCTION void diagonal_record(const Mat3<T> (&dP)[3], const T& weight, int direction,
                                             Mat3<T>& Q, Vec3<T>& v) {
@@ -33,7 +34,7 @@ KOKKOS_INLINE_FUNCTION void diagonal_record(const Mat3<T> (&dP)[3], const T& wei
   }
 }
 
-/// Leaves these records of each domain, over V_a.
+/// Record of diagonal_record() for each domain, divided by V_a.
 template <class B, class Material, template <class> class Tangent, bool Damped>
 struct NodalDiagonal {
   static constexpr int fields = 1;
@@ -41,7 +42,7 @@ struct NodalDiagonal {
   using T = RowPack<B>;
   RowScales<B> scales;
   Scalars<B> inverse_volume;
-  typename B::Real over;  ///< [1/s]
+  typename B::Real over;  ///< factor of the damping times [1/s]
   int direction;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1],
@@ -63,8 +64,8 @@ struct NodalDiagonal {
   }
 };
 
-/// Column `direction` of the blocks, but for its number in the third place after the diagonal's,
-/// which is left 0.
+/// Computes column `direction` of the diagonal blocks: the number on the diagonal and the next one
+/// (cyclic). The third is left 0.
 template <class B>
 struct RowDiagonal {
   using T = RowPack<B>;
@@ -107,7 +108,7 @@ struct RowDiagonal {
     }
   }
 
-  /// S_ab of one entry, 0 inside the body.
+  /// Returns S_ab of one entry, 0 inside the body.
   KOKKOS_INLINE_FUNCTION Vec3<T> surface_part(const RowsAt<B>& at, const int* neighbour) const {
     Vec3<T> S;
     for (int e = rows.first_surface(at.slice); e < rows.first_surface(at.slice + 1); ++e) {
@@ -121,7 +122,8 @@ struct RowDiagonal {
   }
 };
 
-/// An empty u: as of nodal_tangent().
+/// Computes column `direction` of the diagonal blocks of K(u). An empty u: about the state whose
+/// gradients are kept.
 template <class B, class Material, template <class> class Tangent>
 void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
                     double over, int direction) {
@@ -139,7 +141,7 @@ void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const V
               RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, direction});
 }
 
-// What is the same for all materials, as in nodal_rows.hpp.
+// Functions that are equal for all materials are compiled once, in nodal_elements.cpp.
 #define PLICA_NODAL_DIAGONAL(EXTERN, ...)                                           \
   EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, \
                                              const NodalRows<__VA_ARGS__>&,         \

@@ -28,7 +28,7 @@
 // the rate of F_t - F_a is not 0 for a body that only turns.
 namespace plica {
 
-/// Of the regions; see NodalRows.
+/// Constants, fibres, stabiliser and damping of the regions; see NodalRows.
 template <class B>
 struct RowScales {
   Scalars<B> constants, fibres, stabiliser, damping;
@@ -39,8 +39,8 @@ struct RowScales {
         damping(rows.damping) {}
 };
 
-/// Pressures from smoothed volumes, and their changes, in the order of the slots: `stride` numbers
-/// each.
+/// Pressures from smoothed volumes, and their changes, in the order of the slots; `stride` numbers
+/// for each slot.
 template <class B, bool Smoothed>
 struct RowPressure {
   Scalars<B> pressure;
@@ -53,7 +53,8 @@ struct RowPressure {
   }
 };
 
-/// Stress of damping over its time for a change dF of a domain's F, with that of its pressure.
+/// Returns the stress of damping divided by its time, for a change dF of a domain's F. The change
+/// of the pressure is included.
 template <class B, class Material, bool Smoothed>
 KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(
     const Mat3<RowPack<B>>& F, const Mat3<RowPack<B>>& dF,
@@ -67,13 +68,13 @@ KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(
     return P;
 }
 
-/// Stress of the force: f = -dE/du. Damped: with that of -D(u) v.
+/// Stress of the force f = -dE/du. Damped: with the stress of -D(u) v.
 template <class B, class Material, bool Watched, bool Damped, bool Smoothed>
 struct NodalForce {
   static constexpr int fields = Damped ? 2 : 1;
   using T = RowPack<B>;
   RowScales<B> scales;
-  ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0, a record per slice
+  ElementFlags<B> flags;  ///< raised by det F <= 0, where Watched; a record per slice
   Changing<B, int> evaluation;
   RowPressure<B, Smoothed> pressure;
 
@@ -100,14 +101,14 @@ struct NodalForce {
   }
 };
 
-/// Stress of -K(u) p. Damped: with that of -D(u) p over a time.
+/// Stress of -K(u) p. Damped: with `over` times the stress of -D(u) p.
 template <class B, class Material, template <class> class Tangent, bool Damped, bool Smoothed>
 struct NodalTangent {
   static constexpr int fields = 2;  // u, p
   static constexpr bool is_tangent = true;
   using T = RowPack<B>;
   RowScales<B> scales;
-  typename B::Real over;  ///< [1/s]
+  typename B::Real over;  ///< factor of the damping times [1/s]
   RowPressure<B, Smoothed> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2],
@@ -127,7 +128,7 @@ struct NodalTangent {
   }
 };
 
-/// J_a, and with two fields its change cof F : dF.
+/// Computes J_a, and with two fields its change cof F : dF.
 template <class B, int fields>
 struct RowVolumes {
   using T = RowPack<B>;
@@ -149,9 +150,10 @@ struct RowVolumes {
   }
 };
 
-/// The pressures excess (J~ - 1), before they are smoothed, that an implicit stage carries beside
-/// the displacement, one a slot behind work.pressure; empty: none. Its tangent and its potential
-/// take these instead of those of the volumes; see carried_pressures.hpp.
+/// Returns the mixed pressures, which an implicit stage has as unknowns beside the displacement.
+/// They are excess (J~ - 1) before smoothing, one per slot, behind the other numbers of
+/// work.pressure; empty: there are none. The stage's tangent and potential take them instead of the
+/// pressures of the volumes; see carried_pressures.hpp.
 template <class B>
 Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work) {
   const auto slots = static_cast<std::size_t>(rows.slots());
@@ -159,8 +161,8 @@ Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work)
                                              : Scalars<B>();
 }
 
-/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and
-/// excess S dJ.
+/// Computes to = S from for `fields` numbers per slot. `first`: from volume ratios to excess (S J -
+/// 1) and excess S dJ.
 template <class B, int fields, bool first>
 struct SmoothRows {
   NodalRows<B> rows;
@@ -177,14 +179,14 @@ struct SmoothRows {
   }
 };
 
-/// What is carried, in the place of the pressures of the volumes.
+/// Replaces the pressures of the volumes by the mixed pressures.
 template <class B, int fields>
 struct TakeCarried {
   Scalars<B> carried, records;
   KOKKOS_INLINE_FUNCTION void operator()(int slot) const { records(slot * fields) = carried(slot); }
 };
 
-/// work.pressure of the fields that have been laid out.
+/// Computes work.pressure of the fields that have been laid out.
 template <class B, int fields>
 void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
                       const NodalWork<B>& work, const Scalars<B>& carried = {}) {
@@ -198,7 +200,8 @@ void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
               SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
-/// Damped where the rows are; with empty flags nobody watches for inverted domains.
+/// Computes the internal force, with damping where the rows have it. Without flags, nothing watches
+/// for inverted domains.
 template <class B, class Material>
 void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
                  int evaluation) {
@@ -221,7 +224,7 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
   });
 }
 
-/// An empty u: about the state whose gradients are kept.
+/// Computes -K(u) p. An empty u: K about the state whose gradients are kept.
 template <class B, class Material, template <class> class Tangent>
 void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
                    const Vectors<B>& p, double over) {
@@ -244,8 +247,8 @@ void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Ve
   });
 }
 
-/// V Psi(F) of each domain, its part of the bracket and of the smoothed volume's energy, in the x
-/// component of partial [J].
+/// Energy of each domain [J], in the x component of partial: V Psi(F), its part of the bracket and
+/// of the smoothed volume's energy.
 template <class B, class Material, bool Smoothed>
 struct NodalEnergy {
   using T = RowPack<B>;
@@ -305,14 +308,14 @@ void nodal_energy(const typename B::Exec& exec, const Level<B>& level, const Vec
   });
 }
 
-/// von Mises' stress [Pa] and volume ratio of every slot; for output.
+/// Stress of von Mises [Pa] and volume ratio of every slot; for output.
 template <class B, class Material, bool Smoothed>
 struct NodalStress {
   using T = RowPack<B>;
   NodalRows<B> rows;
   NodalWork<B> work;
   RowPressure<B, Smoothed> pressure;
-  Scalars<B> lost;  ///< to relaxation; see StressMemory
+  Scalars<B> lost;  ///< relaxed stress; see StressMemory
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[1];
@@ -333,7 +336,7 @@ struct NodalStress {
   }
 };
 
-/// Of a vertex between regions the mean over its domains, by volume.
+/// Mean of each vertex over its domains, by volume. A vertex between regions has several domains.
 template <class B>
 struct MeanOfDomains {
   using Real = typename B::Real;
@@ -372,7 +375,7 @@ void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vec
   mean_of_domains<B>(exec, level, von_mises, J);
 }
 
-// What is the same for all materials, as in nodal_rows.hpp.
+// Functions that are equal for all materials are compiled once, in nodal_elements.cpp.
 #define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                                     \
   EXTERN template void smooth_pressures<__VA_ARGS__, 1>(                                      \
       const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \

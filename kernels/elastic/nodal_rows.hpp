@@ -7,28 +7,29 @@
 
 // How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a
 // (core/nodal_rows.hpp) has one deformation gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and
-// one stress; a force is a sum over neighbours of their stresses. Both sums read the same constants
-// C_ab, since C_ab = S_ab - C_ba with S_ab kept for pairs on the surface only:
+// one stress. A force is a sum over the neighbours' stresses. Both sums read the same constants
+// C_ab: C_ab = S_ab - C_ba, with S_ab stored for pairs on the surface only:
 //
-//   1. lay out   near[slot]     = fields of the slot's vertex           u [vertices][3] -> four numbers a slot
-//   2. stresses  records[slot]  = stress Q_a, field v_a                 gathers near of the neighbours
-//   3. forces    partial[slot]  = sum_a (Q_a + Q_b) C_ba - Q_a S_ab - stabiliser w_ab (v_a - v_b),   b = slot: gathers records
-//   4. gather_forces: vertices between regions add up their slots       as for linear elements
+//   1. lay out   near[slot]     = fields of the slot's vertex        u [vertices][3] -> 4 a slot
+//   2. stresses  records[slot]  = stress Q_a, field v_a              gathers near of the neighbours
+//   3. forces    partial[slot]  = sum_a (Q_a + Q_b) C_ba - Q_a S_ab - stabiliser w_ab (v_a - v_b)
+//                                 with b = slot                      gathers records
+//   4. gather_forces: vertices between regions add up their slots    as for linear elements
 //
-// One slice of rows is computed at a time, a row per lane; each lane's neighbour is read whole and
+// One slice of rows is computed at a time, a row per lane. Each lane's neighbour is read whole and
 // transposed in registers:
 //
-//   neighbours of entry e   17   4  23   9          near[17]: x y z 0  -.         x x x x
-//   (one per row)                                   near[ 4]: x y z 0   |  load   y y y y    one pack per component
-//                                                   near[23]: x y z 0   |------>  z z z z
-//                                                   near[ 9]: x y z 0  -'         0 0 0 0
+//   neighbours of entry e  17  4 23  9     near[17]: x y z 0  -.         x x x x
+//   (one per row)                          near[ 4]: x y z 0   |  load   y y y y    one pack for
+//                                          near[23]: x y z 0   |------>  z z z z    each component
+//                                          near[ 9]: x y z 0  -'         0 0 0 0
 //
-// Nothing is written but rows of one's own, and every sum is in a stored order: the same bits for
-// any number of threads. Bytes per domain, n neighbours (about 14), s = sizeof(Real): 2. n (4 + 3
-// s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
+// A work item writes to its own rows only, and every sum is in a stored order: the same bits for
+// any number of threads. Bytes per domain, n neighbours (about 14), s = sizeof(Real), by step: 2. n
+// (4 + 3 s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
 namespace plica {
 
-/// C or S of one entry.
+/// Loads C or S of one entry.
 template <class B, class Array>
 KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int entry,
                                                       int offset) {
@@ -44,7 +45,7 @@ void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B
   update_vertices<B>(exec, label, rows.slots() / B::lanes, work);
 }
 
-/// 1. near[slot]
+/// Step 1: copies the fields of vertices to near[slot].
 template <class B, int fields>
 struct LayOut {
   using Real = typename B::Real;
@@ -67,7 +68,7 @@ void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const Nodal
   update_vertices<B>(exec, "plica::nodal_layout", rows.slots(), copy);
 }
 
-/// The gradients of the fields in `near`.
+/// Computes the gradients G of the fields in `near`, and loads the slots' own values.
 template <class B, int fields>
 KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalars<B>& near,
                                           const RowsAt<B>& at, Vec3<RowPack<B>>* own,
@@ -91,7 +92,7 @@ KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalar
   for (int f = 0; f < fields; ++f) G[f] = inverse * G[f];
 }
 
-/// The gradients of the field in `near`, for tangents about it.
+/// Computes and keeps the gradients of the field in `near`, for tangents about it.
 template <class B>
 struct KeepGradients {
   NodalRows<B> rows;
@@ -114,7 +115,7 @@ void keep_gradients(const typename B::Exec& exec, const Level<B>& level, const V
   for_rows<B>(exec, "plica::nodal_gradients", rows, KeepGradients<B>{rows, level.nodal});
 }
 
-/// One of them.
+/// Returns one of the kept gradients.
 template <class B>
 KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> kept_gradient(const Scalars<B>& kept, const RowsAt<B>& at) {
   Mat3<RowPack<B>> G;
@@ -122,8 +123,8 @@ KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> kept_gradient(const Scalars<B>& kept, co
   return G;
 }
 
-/// (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot, k) = values[slot *
-/// stride + k]; V S is symmetric.
+/// Returns (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot) =
+/// values[slot * stride]. V S is symmetric.
 template <class B>
 KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typename B::Real* values,
                                            int stride, const RowsAt<B>& at) {
@@ -141,7 +142,7 @@ KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typen
   return load_rows<B>(&rows.inverse_volume(at.slot)) * sum + T(0.25f) * own;
 }
 
-/// Four numbers of each of three columns to records.
+/// Stores four numbers of each of three columns in records.
 template <class B>
 KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt<B>& at,
                                          const Mat3<RowPack<B>>& Q, const Vec3<RowPack<B>>& v) {
@@ -152,12 +153,13 @@ KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt
   }
 }
 
-/// 2. The records of an integrand, which has
+/// Step 2: computes the records of an integrand, which has
 ///   static constexpr int fields;        what it reads, in `near`
 ///   static constexpr bool is_tangent;   where the first field's gradient may be kept
-///   void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&v)[fields], const RowsAt<B>&, int region, Mat3<T>& Q, Vec3<T>& v)
-/// with the gradients G of the fields, and leaves the stress that acts on the neighbours and the
-/// field that the stabiliser does.
+///   void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&v)[fields], const RowsAt<B>&,
+///                   int region, Mat3<T>& Q, Vec3<T>& v)
+/// with the gradients G of the fields. It writes the stress Q that acts on the neighbours and the
+/// field v that the stabiliser takes.
 template <class B, class Integrand>
 struct RowStresses {
   static constexpr int fields = Integrand::fields;
@@ -165,7 +167,7 @@ struct RowStresses {
   NodalRows<B> rows;
   NodalWork<B> work;
   Integrand integrand;
-  bool kept = false;  ///< of a tangent: `near` has all fields but the first
+  bool kept = false;  ///< gradients of a tangent are kept: `near` has all fields but the first
 
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
@@ -186,7 +188,7 @@ struct RowStresses {
   }
 };
 
-/// 3. partial[slot] from records; `adds`: to what is in it.
+/// Step 3: computes partial[slot] from records; `adds`: adds to what is in it.
 template <class B, bool adds = false>
 struct RowForces {
   using Real = typename B::Real;
@@ -245,7 +247,7 @@ void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>
               RowForces<B>{rows, level.nodal.records, level.partial});
 }
 
-// What is the same for all materials is compiled once, in nodal_elements.cpp.
+// Functions that are equal for all materials are compiled once, in nodal_elements.cpp.
 #define PLICA_NODAL_ROWS(EXTERN, ...)                                                         \
   EXTERN template void lay_out<__VA_ARGS__, 1>(                                               \
       const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \

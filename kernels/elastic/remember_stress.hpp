@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// Takes the memory at `slot` to the stress at F, S = F^-1 P of the law without a stiffness of the
-/// volume: finite for any F, as the law is, with 1/J as volume_ratio.hpp continues it.
+/// Updates the memory at `slot` to the stress at F. S = F^-1 P of the law without a stiffness of
+/// the volume. It is finite for any F, as the law is, with 1/J continued as in volume_ratio.hpp.
 template <class B, class Material, class T>
 KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const Mat3<T>& F,
                                             const typename Material::template Constants<T>& c,
@@ -28,7 +28,7 @@ KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const
   }
 }
 
-/// Of linear elements: a team to a patch, a pack to a thread.
+/// Updates the memory of linear elements: a team takes a patch, a thread a pack.
 template <class B, class Material>
 struct RememberElements {
   using Real = typename B::Real;
@@ -72,7 +72,7 @@ void remember_elements(const typename B::Exec& exec, const Level<B>& level, cons
          Kernel{patches, level.stress, {u}, constants});
 }
 
-/// Of nodal elements.
+/// Updates the memory of nodal elements.
 template <class B, class Material>
 struct RememberDomains {
   using T = RowPack<B>;

@@ -6,7 +6,8 @@
 // Vertex kernels of the Lanczos iteration on A K in the inner product of K or A.
 namespace plica {
 
-/// y = K x, and x.y; partial: the shares of -K x. A vertex whose inverse mass is 0 does not move.
+/// Computes y = K x and x.y; partial: the shares of -K x. A vertex whose inverse mass is 0 does not
+/// move.
 template <class B>
 struct StiffnessProduct {
   using Real = typename B::Real;
@@ -24,7 +25,7 @@ struct StiffnessProduct {
   }
 };
 
-/// w = M^-1 x
+/// Computes w = M^-1 x.
 template <class B>
 struct MultiplyByInverseMass {
   Scalars<B> inverse_mass;
@@ -34,7 +35,7 @@ struct MultiplyByInverseMass {
   }
 };
 
-/// w = scale w - alpha v - beta before
+/// Computes w = scale w - alpha v - beta before.
 template <class B>
 struct NextLanczosVector {
   using Real = typename B::Real;

@@ -5,23 +5,24 @@
 #include <plica/core/level.hpp>
 #include <plica/core/small.hpp>
 
-// Relaxation by Prony series, in Simo's way (Simo & Hughes, Computational Inelasticity, 10.3; the
-// stress that relaxes is FEBio's): with the isochoric second Piola stress S of an elastic law and
-// terms alpha_i, tau_i,
+// Relaxation by Prony series, by the method of Simo (Simo & Hughes, Computational Inelasticity,
+// 10.3). The stress that relaxes is the one of FEBio. With the isochoric second Piola stress S of
+// an elastic law and terms alpha_i, tau_i,
 //
-//   P = P_elastic(F) - F sum_i alpha_i (S - H_i),     H_i' = S' - H_i / tau_i,     H_i = S at the start.
+//   P = P_elastic(F) - F sum_i alpha_i (S - H_i),  H_i' = S' - H_i / tau_i,  H_i = S at the start.
 //
-// From a time where S_n and H_i are known, over t, with S linear in between: H_i = keep_i H_i +
-// gain_i (S - S_n), keep = e^(-t/tau), gain = (1 - keep) tau/t. So
+// S_n and H_i are known at the begin of a time t, over which S is linear: H_i = keep_i H_i + gain_i
+// (S - S_n), keep = e^(-t/tau), gain = (1 - keep) tau/t. So
 //
-//   sum_i alpha_i (S - H_i) = share S + lost,   share = sum alpha_i (1 - gain_i),   lost = sum alpha_i (gain_i S_n - keep_i H_i):
+//   sum_i alpha_i (S - H_i) = share S + lost,
+//   share = sum alpha_i (1 - gain_i),   lost = sum alpha_i (gain_i S_n - keep_i H_i):
 //
-// over a step the material is the elastic one with 1 - share of its energy of shape, less a stress
-// `lost` that does not depend on the state. Elastic kernels do the former with other constants,
-// those here the latter.
+// over a step the material is the elastic one with 1 - share of its energy of shape, less the
+// relaxed stress `lost`, which does not depend on the state. Elastic kernels compute the elastic
+// part with other constants; the kernels of lost_stress.hpp compute the relaxed stress.
 namespace plica {
 
-/// Numbers first to first + 5 of `count` as a symmetric matrix, of the slots in T's lanes.
+/// Loads numbers first to first + 5 of `count` as a symmetric matrix, of the slots in T's lanes.
 template <class B, class T>
 KOKKOS_INLINE_FUNCTION SymMat3<T> load_symmetric(const Scalars<B>& all, int slot, int first = 0,
                                                  int count = 6) {
@@ -41,24 +42,24 @@ KOKKOS_INLINE_FUNCTION void store_symmetric(const SymMat3<T>& m, const Scalars<B
   }
 }
 
-/// The true stress F S F^T / J of a second Piola stress.
+/// Returns the true stress F S F^T / J of a second Piola stress.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> pushed_forward(const Mat3<T>& F, const SymMat3<T>& S) {
   return (T(1) / determinant(F)) * (F * matrix_of(S) * transpose(F));
 }
 
-/// What the Prony series of each region makes of a time t, see stress_memory.hpp; a term of alpha 0
-/// is none.
+/// Steps of the Prony series of each region over a time t, see stress_memory.hpp. A term of alpha 0
+/// has no effect.
 template <class B>
 struct RelaxationSteps {
   using Real = typename B::Real;
-  int terms = 0;          ///< of the longest series
-  Doubles<B> alpha, tau;  ///< [regions][terms]; s
-  Changing<B, double> t;  ///< [s]
+  int terms = 0;          ///< terms of the longest series
+  Doubles<B> alpha, tau;  ///< [regions][terms] 1; s
+  Changing<B, double> t;  ///< time of the step [s]
   bool backward_euler = false;
   Scalars<B> step;    ///< [regions][terms][2] keep and gain
-  Scalars<B> weight;  ///< [regions][1 + terms] of S_n and of each -H_i in what is lost
-  Scalars<B> share;   ///< [regions] of the energy of shape that is lost
+  Scalars<B> weight;  ///< [regions][1 + terms] factors of S_n and of each -H_i in `lost`
+  Scalars<B> share;   ///< [regions] part of the energy of shape that relaxes
 
   KOKKOS_INLINE_FUNCTION void operator()(int region) const {
     double shared = 0, elastic = 0;

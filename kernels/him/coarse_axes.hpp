@@ -5,28 +5,28 @@
 #include <plica/kernels/him/inverse_mass.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The axes of the coarsest level, and the force that follows from their rotation.
+// Frames of the coarsest level (axes in the code), and the force that follows from their rotation.
 //
 // The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body
-// that has turned it must be R S R^T, where R turns each coarse vertex's axes. R comes from the
-// finest mesh's displacements in three steps, the last two in one kernel:
+// that has turned it must be R S R^T, where R turns the frame of each coarse vertex. R comes from
+// the finest mesh's displacements in three steps, the last two in one kernel:
 //
 //   u  --E-->  u_C  --gradient-->  G of each vertex      --polar-->  R of each vertex
 //   finest     coarse              deformation gradient,             the nearest rotation
 //              vertices            mean over its surroundings
 //
-// Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its
-// gradient is a force: p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That
+// A = A(x) depends on where the body is, and so does the kinetic energy p.A(x)p/2. Its gradient is
+// the force of frames: p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That
 // force goes the same way back, by the transposes:
 //
-//   p  <--E^T--  g  <--gradient^T--  torque on each vertex's axes
+//   p  <--E^T--  g  <--gradient^T--  torque on each vertex's frame
 //
-// With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x
-// q_a): that is the torque. R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+// With q the coarse momentum and y = b R S R^T q, a turn of R_a by w changes the energy by w.(y_a x
+// q_a), which gives the torque. R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
 //
-// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until it
-// no longer does. From the torques to what they add to q all is linear and stays the same, so that
-// one matrix does it; the force itself is needed only once.
+// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until q
+// has converged. From the torques to what they add to q all is linear and constant, so that one
+// matrix does it; the force itself is needed only once.
 namespace plica {
 
 template <class Real, class View>
@@ -35,7 +35,7 @@ KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A
     for (int j = 0; j < 3; ++j) x(3 * a + i, j) = A[i][j];
 }
 
-/// `values` numbers for each vertex of a work item, from a matrix of CoarseAxes.
+/// Computes `values` numbers for each vertex of a work item, by a matrix of CoarseAxes.
 template <class B, int values, class Matrix>
 KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int columns,
                                        const Vectors<B>& x,
@@ -44,8 +44,9 @@ KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int colum
                                                                x.data(), y);
 }
 
-/// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to
-/// determinant 1, to round-off; where A is turned inside out or flat, `before`, and false.
+/// Computes the rotation Q nearest to A (its polar factor) by Newton's iteration (Higham 1986). The
+/// iteration is scaled to determinant 1 and ends at round-off. Where A is inverted or flat, Q is
+/// `before`, and the result is false.
 template <class Real>
 KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Real>& before,
                                              Mat3<Real>& Q) {
@@ -62,8 +63,8 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
   return true;
 }
 
-/// R and (tr U 1 - U)^-1 of u_C, and per work item the sum of the squares of the angles since the
-/// last time.
+/// Computes R and (tr U 1 - U)^-1 from u_C. Per work item it sums up the squares of the angles
+/// since the last call.
 template <class B>
 struct TurnAxes {
   using Real = typename B::Real;
@@ -99,14 +100,14 @@ struct TurnAxes {
   }
 };
 
-/// Momentum of the coarsest level and what the axes' force adds to it.
+/// Momentum of the coarsest level, and what the force of frames adds to it.
 template <class B>
 struct CoarseMomentum {
-  Vectors<B> given;  ///< without that force
-  Vectors<B> share;  ///< what it adds
+  Vectors<B> given;  ///< momentum without the force of frames
+  Vectors<B> share;  ///< momentum that the force of frames adds
 };
 
-/// R^T q, q = given + share.
+/// Computes R^T q, q = given + share.
 template <class B>
 struct StartMomentum {
   CoarseFilter<B> filter;
@@ -116,16 +117,16 @@ struct StartMomentum {
   }
 };
 
-/// A round of the search for the axes' force: the squares of its share's change, of the share and
-/// of all the momentum, summed up by every work item for itself. Rounds after one that changed
-/// little do nothing, and leave sums of 0.
+/// Sums of a round of the search for the force of frames. They are the squares of the change of its
+/// share, of the share and of all the momentum, added up by every work item for itself. Rounds
+/// after one that changed little do nothing, and leave sums of 0.
 template <class B>
 struct RoundOfAxes {
   static constexpr double tolerance = 1e-3, least = 1e-6;
   /// [groups]; empty before the first round
   Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> sums;
-  /// The change over the share, 0 where that is within `tolerance`, or the change within `least` of
-  /// all.
+  /// Returns the change divided by the share. It is 0 where that is within `tolerance`, or the
+  /// change within `least` of all the momentum.
   KOKKOS_INLINE_FUNCTION double change() const {
     const int groups = static_cast<int>(sums.extent(0));
     if (groups == 0) return 1;
@@ -137,7 +138,7 @@ struct RoundOfAxes {
   KOKKOS_INLINE_FUNCTION bool goes_on() const { return change() > 0; }
 };
 
-/// torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R S R^T q
+/// Computes torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R S R^T q.
 template <class B>
 struct TorqueOnAxes {
   using Real = typename B::Real;
@@ -158,7 +159,7 @@ struct TorqueOnAxes {
   }
 };
 
-/// The share that follows from the torques, towards what these depend on, and R^T q.
+/// Computes the share that follows from the torques, and R^T q, on which the next torques depend.
 template <class B>
 struct NextMomentum {
   using Real = typename B::Real;
@@ -188,7 +189,7 @@ struct NextMomentum {
   }
 };
 
-/// g of the torques.
+/// Computes the force g of the torques.
 template <class B>
 struct ForceOfTorques {
   using Real = typename B::Real;
@@ -202,7 +203,8 @@ struct ForceOfTorques {
   }
 };
 
-/// That, and the coarsest level's answer to the momenta: neither needs the other.
+/// Computes the force of the torques and the coarsest level's response to the momenta in one
+/// launch: neither needs the other.
 template <class B>
 struct ForceAndAnswer {
   ForceOfTorques<B> force;
@@ -210,7 +212,7 @@ struct ForceAndAnswer {
   KOKKOS_INLINE_FUNCTION void operator()(int item) const { force(item), answer(item); }
 };
 
-/// p += t E^T g, of vertices that forces move, and q likewise, where there is one. Returns p.
+/// Adds t E^T g to p of vertices that forces move, and to q, where there is one. Returns p.
 template <class B>
 struct PushByAxes {
   using Real = typename B::Real;
@@ -228,7 +230,7 @@ struct PushByAxes {
   }
 };
 
-/// The same, and the finest level's answer to what is pushed.
+/// Adds the force of frames to p, and computes the finest level's response to p.
 template <class B>
 struct AnswerOfPushed {
   PushByAxes<B> push;
@@ -238,7 +240,7 @@ struct AnswerOfPushed {
   }
 };
 
-/// The same, and the mean acceleration that follows.
+/// Adds the force of frames to p, and computes the mean acceleration that follows.
 template <class B>
 struct AccelerationOfPushed {
   AnswerOfPushed<B> pushed;
@@ -248,7 +250,7 @@ struct AccelerationOfPushed {
   }
 };
 
-/// A middle level's share of that: += t Pi^T E^T g.
+/// Adds a middle level's share of the force of frames to its momentum: t Pi^T E^T g.
 template <class B>
 struct AddShareOfAxes {
   using Real = typename B::Real;

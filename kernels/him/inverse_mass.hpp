@@ -6,12 +6,13 @@
 #include <plica/kernels/transfer/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The hierarchical inverse mass, level by level.
+// Hierarchical inverse mass, level by level.
 namespace plica {
 
-/// A middle level: acceleration = weight Q force + P (the coarser level's), Q = 1 + (1 - M): the
-/// lumped mass, which is 1, corrected once by the consistent one (Richardson). Without a P there is
-/// no coarser one; Q without weight is not worked out.
+/// Response of a middle level: acceleration = weight Q force + P (the coarser level's
+/// acceleration). Q = 1 + (1 - M) is the lumped mass, which is 1, corrected once by the consistent
+/// mass M (Richardson). Without P there is no coarser level; where the weight is 0, Q is not
+/// computed.
 template <class B>
 struct AnswerOfLevel {
   using Real = typename B::Real;
@@ -28,7 +29,8 @@ struct AnswerOfLevel {
   }
 };
 
-/// The finest level: acceleration = weight m^-1 force + P (the coarser level's).
+/// Response of the finest level: acceleration = weight m^-1 force + P (the coarser level's
+/// acceleration).
 template <class B>
 struct AnswerOfFinest {
   using Real = typename B::Real;
@@ -45,7 +47,7 @@ struct AnswerOfFinest {
   }
 };
 
-/// answer = (answer - v) / t: from A p to the acceleration.
+/// Computes answer = (answer - v) / t: from A p to the mean acceleration.
 template <class B>
 struct MeanAcceleration {
   using Real = typename B::Real;
@@ -57,7 +59,7 @@ struct MeanAcceleration {
   }
 };
 
-/// The axes of coarse vertex a, from row 3 a on.
+/// Returns the matrix of coarse vertex a, in three rows from row 3 a on.
 template <class Real, class View>
 KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
   Mat3<Real> A;
@@ -66,7 +68,7 @@ KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
   return A;
 }
 
-/// turned = R^T force at a vertex
+/// Computes turned = R^T force at a vertex.
 template <class B>
 KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a,
                                        const Vec3<typename B::Real>& force) {
@@ -83,7 +85,7 @@ struct TurnForces {
   }
 };
 
-/// The way down to the coarsest level, and there `turn`, of what has come down.
+/// Restricts to the coarsest level, and applies `turn` to the result there.
 template <class B, class Turn>
 struct DownToAxes {
   MultiplyRows<B, float> down;
@@ -91,10 +93,10 @@ struct DownToAxes {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { down(a), turn(a); }
 };
 
-// A dense matrix times vectors: a work item takes a whole group of vertices on a CPU, where its
-// rows fill registers, one vertex on a GPU.
+// Dense matrix times vectors. On a CPU a work item takes a whole group of vertices, whose rows fill
+// registers; on a GPU one vertex.
 
-/// Vertices of a work item.
+/// Number of vertices of a work item.
 template <class B>
 constexpr int group_size = B::for_cpu ? CoarseFilter<B>::group : 1;
 template <class B>
@@ -102,8 +104,8 @@ constexpr int groups_of(int vertices) {
   return (vertices + group_size<B> - 1) / group_size<B>;
 }
 
-/// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie
-/// together, [columns][block], an item has `rows`.
+/// Computes y = the rows of work item `item` times x, [columns][values]. A block's rows lie
+/// together, [columns][block]; an item has `rows` of them.
 template <class B, int rows, int values, int block, class Number>
 KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns,
                                        const typename B::Real* x,
@@ -123,8 +125,8 @@ KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int colum
     for (int i = 0; i < rows; ++i) y[v][i] = lane(sum[v][i / lanes], i % lanes);
 }
 
-/// S R^T force of a work item's vertices, in their axes: 36 bytes and 18 flops per pair of
-/// vertices.
+/// Computes S R^T force of a work item's vertices, in their frames. 36 bytes and 18 flops per pair
+/// of vertices.
 template <class B>
 KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
                                      typename B::Real (&y)[1][3 * group_size<B>]) {
@@ -132,7 +134,7 @@ KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
       filter.matrix.data(), item, 3 * filter.vertices, filter.turned.data(), y);
 }
 
-/// The coarsest level: acceleration = weight R S R^T force, of forces that are turned.
+/// Response of the coarsest level: acceleration = weight R S R^T force, with R^T force in `turned`.
 template <class B>
 struct AnswerOfCoarsest {
   using Real = typename B::Real;

@@ -2,22 +2,22 @@
 #pragma once
 #include <plica/kernels/him/coarse_axes.hpp>
 
-// One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the
+// Step of the hierarchical inverse mass on the finest level: drift by half a step, kick of the
 // momenta, v = A p, drift by half a step; see KickMomentum.
 namespace plica {
 
-/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest
-/// axes turned in the last, at most 1e-4.
+/// Factor c of this step by which KickMomentum reduces p - m v. It is given, or 0.3 times the root
+/// mean square of the angles by which the coarsest frames turned in the last step, at most 1e-4.
 template <class B>
 struct Loss {
-  Doubles<B> turned;  ///< its square [rad^2]
-  double given;       ///< < 0: chosen
+  Doubles<B> turned;  ///< mean square of the angles [rad^2]
+  double given;       ///< c, or < 0: chosen from the angles
   KOKKOS_INLINE_FUNCTION double operator()() const {
     return given >= 0 ? given : Kokkos::min(1e-4, 0.3 * Kokkos::sqrt(turned(0)));
   }
 };
 
-/// A rigid motion about the body's centre as it is now, in double.
+/// Rigid motion about the body's present centre, in double.
 struct RigidFrame {
   double centre[3];
   double linear[3], angular[3];  ///< [m/s], [rad/s]
@@ -28,7 +28,7 @@ using RigidFrameOf = Kokkos::View<RigidFrame, typename B::Memory>;
 
 KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
 
-/// The velocities of a rigid motion at the body's vertices; none: 0.
+/// Velocities of a rigid motion at the body's vertices; 0 where there is none.
 template <class B>
 struct RigidMotion {
   using Real = typename B::Real;
@@ -44,29 +44,29 @@ struct RigidMotion {
   }
 };
 
-/// Contact's forces on the vertices: 0 where nothing touches, and without obstacles, where the
-/// arrays are empty.
+/// Contact's forces on the vertices. They are 0 where nothing touches. Without obstacles, the
+/// arrays are empty and the forces are 0.
 template <class B>
 struct ContactForces {
   Vectors<B> force;
-  Doubles<B> touching;  ///< how many places, on the device
+  Doubles<B> touching;  ///< number of places that touch, on the device
   KOKKOS_INLINE_FUNCTION bool any() const { return force.extent(0) > 0 && touching(0) > 0; }
   KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> operator()(int a) const {
     return any() ? vector_at<B>(force, a) : Vec3<typename B::Real>{};
   }
 };
 
-/// p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass damping; of p - m v
-/// without its rigid part, where the body is free: that changes neither sum p nor sum x x p.
-/// Contact's forces of the last step are among f: what the axes' force is found for should be the
-/// momenta at the end of the step, see TakeExpectedContact.
+/// Kicks the momenta: p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass
+/// damping. Where the body is free, p - m v is taken without its rigid part, so that c changes
+/// neither sum p nor sum x x p. Contact's forces of the last step are among f: the force of frames
+/// should be found for the momenta at the end of the step, see TakeExpectedContact.
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
   VertexModel<B> model;
   Vectors<B> f, v, p;
-  ContactForces<B> contact;  ///< of the last step
-  RigidMotion<B> rigid;      ///< of p - m v
+  ContactForces<B> contact;  ///< forces of the last step
+  RigidMotion<B> rigid;      ///< rigid part of p - m v
   Loss<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
@@ -81,12 +81,12 @@ struct KickMomentum {
   }
 };
 
-/// Momenta and accelerations without the contact that was expected.
+/// Removes the expected contact from momenta and accelerations.
 template <class B>
 struct TakeExpectedContact {
   using Real = typename B::Real;
   Scalars<B> inverse_mass;
-  Vectors<B> force, answer;  ///< of it
+  Vectors<B> force, answer;  ///< expected forces, and the response to them
   Vectors<B> p, a;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
@@ -96,8 +96,8 @@ struct TakeExpectedContact {
   }
 };
 
-/// The kick of the velocities, contact's of both, and the second drift; sums up t^2 da.df and
-/// -dx.df of the guard, d: since the last step.
+/// Kicks the velocities, adds contact's part to velocities and momenta, and makes the second drift.
+/// Sums up t^2 da.df and -dx.df for WatchSpectrum, d: change since the last step.
 template <class B>
 struct KickAndDrift {
   using Real = typename B::Real;
@@ -105,7 +105,7 @@ struct KickAndDrift {
   State<B> state;
   Vectors<B> p, f, a, f_before, a_before;
   ContactForces<B> contact;
-  Vectors<B> contact_answer;  ///< the accelerations by them
+  Vectors<B> contact_answer;  ///< accelerations by contact's forces
   Real t;
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
@@ -126,10 +126,11 @@ struct KickAndDrift {
   }
 };
 
-/// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step
-/// did: as stability is lost at 4 the fastest motions take over, and with them the mean. `state`:
-/// how often running it was above 3.4, 1 where that was twice, 2 where the axes' force was not
-/// found (to 1 %, see RoundOfAxes), the largest.
+/// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over the last step's
+/// motion. Stability is lost at 4; then the fastest motions take over, and with them the mean.
+/// `state` has three numbers: how often running the mean was above 3.4; 1 where that was twice or a
+/// sum is not finite, 2 where the force of frames was not found (to 1 %, see RoundOfAxes); the
+/// largest mean.
 template <class B>
 struct WatchSpectrum {
   Doubles<B> sums, state;
@@ -146,7 +147,7 @@ struct WatchSpectrum {
   }
 };
 
-/// What follows a step's sums.
+/// Ends a step after its sums: watches the spectrum, and sets the mean square of the angles.
 template <class B>
 struct EndOfStep {
   WatchSpectrum<B> watch;
@@ -160,11 +161,11 @@ struct EndOfStep {
   }
 };
 
-// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the
+// Translation of a free body, computed exactly, so that sum m v is sum p whatever A is; and the
 // rigid part of momenta.
 
-/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of p
-/// - m v: 16 sums.
+/// Sums m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment
+/// of p - m v: 16 sums.
 template <class B>
 struct BodyMoments {
   Scalars<B> mass;
@@ -183,7 +184,8 @@ struct BodyMoments {
   }
 };
 
-/// Centre and rigid motion from those sums; a body on one line does not turn.
+/// Computes the centre and the rigid motion from the sums of BodyMoments. A body on one line does
+/// not turn.
 template <class B>
 struct SetRigidFrame {
   Doubles<B> sums;
@@ -207,7 +209,7 @@ struct SetRigidFrame {
   }
 };
 
-/// m and p, each summed
+/// Sums m and p.
 template <class B>
 struct SumOfMomenta {
   Scalars<B> mass;
@@ -218,7 +220,7 @@ struct SumOfMomenta {
   }
 };
 
-/// The kick, and the sums of what it leaves.
+/// Kicks the momenta, and sums up the result.
 template <class B>
 struct KickAndSum {
   KickMomentum<B> kick;
@@ -228,7 +230,7 @@ struct KickAndSum {
   }
 };
 
-/// m and m v, each summed
+/// Sums m and m v.
 template <class B>
 struct SumOfMotion {
   Scalars<B> mass;
@@ -240,7 +242,7 @@ struct SumOfMotion {
   }
 };
 
-/// rest = p - m (its mean velocity)
+/// Computes rest = p - m (sum p / sum m), the momenta without the translation.
 template <class B>
 struct TakeTranslation {
   using Real = typename B::Real;
@@ -253,7 +255,7 @@ struct TakeTranslation {
   }
 };
 
-/// v += what its mean lacks to the momenta's
+/// Adds a translation to v, so that its mean is that of the momenta.
 template <class B>
 struct PutTranslation {
   using Real = typename B::Real;
@@ -265,7 +267,7 @@ struct PutTranslation {
   }
 };
 
-/// The same, and the mean acceleration that follows.
+/// Adds a translation to v, and computes the mean acceleration that follows.
 template <class B>
 struct AccelerationOfTranslated {
   PutTranslation<B> put;

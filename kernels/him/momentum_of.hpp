@@ -2,11 +2,11 @@
 #pragma once
 #include <plica/kernels/vectors.hpp>
 
-// Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m;
-// residuals r in r.m r.
+// Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m.
+// Residuals r are measured by r.m r.
 namespace plica {
 
-/// r = v - answer
+/// Computes r = v - answer and r.m r.
 template <class B>
 struct StartResidual {
   VertexModel<B> model;
@@ -22,7 +22,7 @@ struct StartResidual {
   }
 };
 
-/// p += alpha s, r -= alpha A s
+/// Computes p += alpha s, r -= alpha A s and r.m r.
 template <class B>
 struct MoveAlong {
   using Real = typename B::Real;

@@ -5,15 +5,16 @@
 #include <plica/kernels/transfer/transfer.hpp>
 
 // Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal
-// polynomial smoothers for multigrid V-cycles, 2022, arXiv:2202.08830, alg. 1): they need the
+// polynomial smoothers for multigrid V-cycles, 2022, arXiv:2202.08830, alg. 1). They need the
 // largest eigenvalue only (lanczos.hpp).
-//   d_1 = 4/(3 lambda) D^-1 r;   x += d_k, r -= A d_k, d_(k+1) = (2k-1)/(2k+3) d_k + (8k+4)/((2k+3) lambda) D^-1 r
+//   d_1 = 4/(3 lambda) D^-1 r;   x += d_k, r -= A d_k,
+//   d_(k+1) = (2k-1)/(2k+3) d_k + (8k+4)/((2k+3) lambda) D^-1 r
 // As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions
 // conjugate gradients. All vectors are by the slots of packed_rows.hpp; directions d, which rows
-// gather, are stored times its scales.
+// gather, are stored times the scales of packed_rows.hpp.
 namespace plica {
 
-/// What a polynomial works on.
+/// Matrix and vectors of a polynomial.
 template <class B>
 struct Chebyshev {
   PackedRows<B> A;
@@ -27,7 +28,7 @@ struct Chebyshev {
   }
 };
 
-/// d_1, x = 0
+/// First direction d_1, and x = 0.
 template <class B>
 struct ChebyshevStart {
   using T = RowPack<B>;
@@ -41,11 +42,11 @@ struct ChebyshevStart {
   }
 };
 
-/// What a step leaves for others to gather: the next direction, or, where it is the last, the
-/// residual or x. The last that leaves x adds the next direction to it.
+/// Result of a step that others gather: the next direction, or, in the last step, the residual or
+/// x. The last step that leaves x adds the next direction to it.
 enum class Leaves { direction, residual, answer };
 
-/// x += d, r -= A d; the next direction is keep d + gain/lambda D^-1 r.
+/// Step of a polynomial: x += d, r -= A d. The next direction is keep d + gain/lambda D^-1 r.
 template <class B>
 struct ChebyshevStep {
   using T = RowPack<B>;
@@ -71,7 +72,7 @@ struct ChebyshevStep {
   }
 };
 
-/// r of a coarser level = P^T of what a finer one has left.
+/// Restriction r = P^T of the residual of a finer level.
 template <class B, class To>
 struct RestrictFours {
   SparseRows<B> down;
@@ -82,7 +83,7 @@ struct RestrictFours {
   }
 };
 
-/// A first direction d = P y, from a coarser level.
+/// First direction d = P y, from a coarser level.
 template <class B>
 struct ChebyshevCorrection {
   Scalars<B> scale;
@@ -94,7 +95,7 @@ struct ChebyshevCorrection {
   }
 };
 
-/// A field of the vertices, by slots; 0 where there is none.
+/// Copy of a field of the vertices by slots; 0 where a slot has no vertex.
 template <class B, class Field>
 struct TakeSlots {
   Indices<B> vertex;

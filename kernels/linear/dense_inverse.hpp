@@ -2,10 +2,10 @@
 #pragma once
 #include <plica/core/matrices.hpp>
 
-// The inverse of a small symmetric matrix, made and applied on the device: the sweep operator
-// (Goodnight 1979, The American Statistician 33(3)), which is Gauss-Jordan elimination in place.
-// Without pivoting it is stable for positive definite matrices; a pivot that is not positive (an
-// empty row: a vertex whose motion is given) leaves its row and column out.
+// Inverse of a small symmetric matrix, made and applied on the device by the sweep operator
+// (Goodnight 1979, The American Statistician 33(3)). The sweep operator is Gauss-Jordan elimination
+// in place. Without pivoting it is stable for positive definite matrices. A pivot that is not
+// positive (an empty row: a vertex whose motion is given) leaves its row and column out.
 namespace plica {
 
 template <class B>
@@ -13,7 +13,7 @@ struct DenseInverse {
   static constexpr int block = 16;  ///< rows that lie together when it is applied
   int size = 0;
   Kokkos::View<double**, Kokkos::LayoutRight, typename B::Memory> matrix;
-  Doubles<B> row;      ///< the pivot's
+  Doubles<B> row;      ///< row of the pivot
   Scalars<B> inverse;  ///< [blocks of rows][size][block]
 
   DenseInverse() = default;
@@ -26,7 +26,7 @@ struct DenseInverse {
             static_cast<std::size_t>((size + block - 1) / block) * block * size)) {}
 };
 
-/// One row of blocks of A, written out.
+/// Expands one row of blocks of A into the dense matrix.
 template <class B>
 struct ToDense {
   BlockMatrix<B> A;
@@ -48,8 +48,8 @@ struct TakePivotRow {
   KOKKOS_INLINE_FUNCTION void operator()(int j) const { dense.row(j) = dense.matrix(pivot, j); }
 };
 
-/// M_ij -= M_ik M_kj / M_kk, M_ik /= M_kk, M_kk = -1 / M_kk for pivot k: after all pivots, minus
-/// the inverse.
+/// Sweeps one row for pivot k: M_ij -= M_ik M_kj / M_kk, M_ik /= M_kk, M_kk = -1 / M_kk. After all
+/// pivots, M is minus the inverse.
 template <class B>
 struct SweepRow {
   DenseInverse<B> dense;
@@ -69,7 +69,7 @@ struct SweepRow {
   }
 };
 
-/// The inverse from its matrix, which holds it times `sign`.
+/// Packs the inverse from `matrix`, which contains `sign` times the inverse.
 template <class B>
 struct PackInverse {
   DenseInverse<B> dense;
@@ -82,8 +82,8 @@ struct PackInverse {
   }
 };
 
-/// x = A^-1 r: a work item takes a whole block of rows on a CPU, where its lanes fill registers,
-/// one row on a GPU.
+/// Computes x = A^-1 r. On a CPU a work item takes a whole block of rows, whose numbers fill
+/// registers; on a GPU one row.
 template <class B>
 struct ApplyDense {
   using Real = typename B::Real;

@@ -2,13 +2,14 @@
 #pragma once
 #include <plica/kernels/linear/vertex_blocks.hpp>
 
-// Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1)
-// with its scalars on the device, where they also decide when to stop: iterations after that change
-// nothing, so that the host may look only now and then. What has no operator()(int) follows a sum,
+// Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1).
+// The scalars are on the device, where they also decide when to stop. Iterations after that change
+// nothing, so that the host need not look at every iteration. A struct without operator()(int)
+// follows a sum, see reduce().
 // see reduce().
 namespace plica {
 
-/// Where a scalar stands among those of a solve.
+/// Index of each scalar among those of a solve.
 namespace cg {
 enum : int {
   curvature,
@@ -23,12 +24,12 @@ enum : int {
   tolerance,
   count
 };
-// values of `stopped`
+// Values of `stopped`
 constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;
 }  // namespace cg
 
-/// z = D r and r.z, with D the inverse vertex blocks: the square of the norm that says when it has
-/// converged, whatever the preconditioner.
+/// Computes z = D r and r.z, with D the inverse vertex blocks. r.z is the square of the norm that
+/// decides convergence, whatever the preconditioner.
 template <class B>
 struct CgSquare {
   Blocks<B> inverse_diagonal;
@@ -41,7 +42,7 @@ struct CgSquare {
   }
 };
 
-/// x = 0; z = D r, r.z
+/// Starts from x = 0: computes z = D r and r.z.
 template <class B>
 struct CgZero {
   CgSquare<B> square;
@@ -65,7 +66,7 @@ struct CgBegin {
   }
 };
 
-/// Of |r| / |b|; below 0: it goes on.
+/// Sets the tolerance of |r| / |b|; below 0 the iteration goes on.
 template <class B>
 struct CgTolerance {
   Doubles<B> s;
@@ -73,7 +74,7 @@ struct CgTolerance {
   KOKKOS_INLINE_FUNCTION void operator()(int) const { s(cg::tolerance) = *tolerance; }
 };
 
-/// Whether r is 0, or as small as it need be.
+/// Returns true where r is 0 or small enough for the tolerance.
 template <class B>
 KOKKOS_INLINE_FUNCTION bool is_solved(const Doubles<B>& s) {
   const double tolerance = s(cg::tolerance);
@@ -81,7 +82,7 @@ KOKKOS_INLINE_FUNCTION bool is_solved(const Doubles<B>& s) {
          (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side));
 }
 
-/// After a guess other than zero; it may be the solution already.
+/// Begins after a guess other than zero, which may be the solution already.
 template <class B>
 struct CgGuess {
   Doubles<B> s;
@@ -92,11 +93,11 @@ struct CgGuess {
   }
 };
 
-/// p = z + beta p, beta = r.z / the last r.z
+/// Computes the direction p = z + beta p, beta = r.z / the last r.z.
 template <class B>
 struct CgDirection {
   Doubles<B> s;
-  int product;  ///< where r.z stands
+  int product;  ///< index of r.z
   Vectors<B> z, p;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const double before = s(cg::last_product);
@@ -106,12 +107,12 @@ struct CgDirection {
   }
 };
 
-/// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed. Where
-/// r.z is not positive, the preconditioner is not.
+/// Computes alpha = r.z / p.q. A direction without positive curvature ends the solve and is not
+/// followed. Where r.z is not positive, the preconditioner is not positive definite (unsound).
 template <class B>
 struct CgStep {
   Doubles<B> s;
-  int product;  ///< where r.z stands
+  int product;  ///< index of r.z
   KOKKOS_INLINE_FUNCTION void operator()() const {
     if (s(cg::stopped) == cg::running && !(s(product) > 0)) s(cg::stopped) = cg::unsound;
     if (s(cg::stopped) == cg::running && !(s(cg::curvature) > 0)) s(cg::stopped) = cg::indefinite;
@@ -120,7 +121,7 @@ struct CgStep {
   }
 };
 
-/// x += alpha p, r -= alpha q; z = D r, r.z
+/// Advances by x += alpha p, r -= alpha q, and computes z = D r and r.z.
 template <class B>
 struct CgAdvance {
   Doubles<B> s;
@@ -149,21 +150,21 @@ struct CgJudge {
   }
 };
 
-// The first guess of a linear solve: of all combinations of the last few solutions, the one nearest
-// to this system's in its own norm (Fischer, Projection techniques for iterative solution of Ax = b
-// with successive right-hand sides, CMAME 163, 1998).
+// First guess of a linear solve: of all combinations of the last few solutions, the one nearest to
+// this system's solution in the norm of A. Fischer, Projection techniques for iterative solution of
+// Ax = b with successive right-hand sides, CMAME 163, 1998.
 
-/// The last solutions w, and q = A w for the matrix of now.
+/// Last solutions w, and q = A w for the present matrix.
 template <class B>
 struct SolutionSpace {
   static constexpr int size = 4;
   static constexpr int sums = size * (size + 1) / 2 + size;
   Vectors<B> w[size], q[size];
-  /// [sums] w_i.q_j for i <= j, then w_i.r; afterwards the weights come first
+  /// [sums] w_i.q_j for i <= j, then w_i.r; SpaceWeights writes the weights over the first of them
   Doubles<B> products;
 };
 
-/// q = A w for all of them, with A read once.
+/// Computes q = A w for all solutions, with A read once.
 template <class B>
 struct SpaceProducts {
   using Real = typename B::Real;
@@ -200,11 +201,12 @@ struct SpaceSums {
   }
 };
 
-/// The weights, by Cholesky's method; solutions that the others make up to rounding are left out.
+/// Computes the weights by Cholesky's method. Solutions that the others make up to rounding are
+/// left out.
 template <class B>
 struct SpaceWeights {
   Doubles<B> products;
-  double least;  ///< what must be left of a solution, of its square
+  double least;  ///< least part of a solution's square that the others must leave
   KOKKOS_INLINE_FUNCTION void operator()() const {
     constexpr int m = SolutionSpace<B>::size;
     double G[m][m], y[m];
@@ -232,7 +234,7 @@ struct SpaceWeights {
   }
 };
 
-/// x = sum of weight * w, r -= sum of weight * q
+/// Computes x += sum of weight * w, r -= sum of weight * q.
 template <class B>
 struct SpaceGuess {
   using Real = typename B::Real;

@@ -2,18 +2,18 @@
 #pragma once
 #include <plica/kernels/linear/krylov.hpp>
 
-// The Lanczos iteration for the largest eigenvalue of D^-1 A, D^-1 the inverse vertex blocks
-// (Parlett, The Symmetric Eigenvalue Problem, 13): of vectors r in the product r . D^-1 r, with q =
-// r / beta of length 1,
+// Lanczos iteration for the largest eigenvalue of D^-1 A, D^-1 the inverse vertex blocks (Parlett,
+// The Symmetric Eigenvalue Problem, 13). Its vectors r have the product r . D^-1 r; q = r / beta
+// has length 1:
 //
 //   r_next = A D^-1 q - alpha q - beta q_last,   alpha = q . D^-1 A D^-1 q,   beta_next = |r_next|
 //
-// The tridiagonal matrix of alphas and betas has nearly the largest eigenvalue after a few steps,
-// also where that is of a single sliver: power iterations, which have to grow out of all the rest,
-// take a hundred there.
+// The tridiagonal matrix of alphas and betas has nearly the largest eigenvalue after a few steps.
+// This holds also where one single sliver causes that eigenvalue. Power iterations take a hundred
+// steps there, since the vector must grow out of all the rest.
 namespace plica {
 
-/// Forces without order; nothing answers those where the motion is given.
+/// Sets r to pseudo-random forces. Where the motion is given, they have no effect.
 template <class B>
 struct BlockLanczosStart {
   Vectors<B> r;
@@ -26,7 +26,7 @@ struct BlockLanczosStart {
   }
 };
 
-/// w /= beta, where w has been made as A z, and alpha = w . z / beta
+/// Computes w /= beta, where w has been made as A z, and returns alpha = w . z / beta.
 template <class B>
 struct LanczosProduct {
   Doubles<B> square;  ///< beta^2
@@ -40,7 +40,7 @@ struct LanczosProduct {
   }
 };
 
-/// The same with the product by a matrix.
+/// Computes w = A z / beta with the product by a matrix, and returns alpha = w . z / beta.
 template <class B>
 struct BlockLanczosProduct {
   BlockMatrix<B> A;
@@ -50,14 +50,15 @@ struct BlockLanczosProduct {
   }
 };
 
-/// r becomes the next, q_last its q; z = D^-1 r and r.z, which is beta^2.
+/// Sets r to the next vector and q_last to the present q. Computes z = D^-1 r and r.z, which is
+/// beta^2.
 template <class B>
 struct BlockLanczosNext {
   using Real = typename B::Real;
   CgSquare<B> size;
   Doubles<B> square, alpha;
   Vectors<B> w, last;
-  bool first;  ///< there is no q_last
+  bool first;  ///< true in the first step, which has no q_last
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const double beta = square(0) > 0 ? Kokkos::sqrt(square(0)) : 0.0;
     const auto q = static_cast<Real>(beta > 0 ? 1 / beta : 0.0) * vector_at<B>(size.r, a);

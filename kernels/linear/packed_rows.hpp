@@ -5,23 +5,24 @@
 #include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: 2^-16 of the
-// vertices' own stiffness is less than a smoother notices. With scales t of the vertices,
+// Symmetric matrix of 3x3 blocks in 16 bits a number, for preconditioners: an error of 2^-16 of the
+// vertices' own stiffness does not affect a smoother. With scales t of the vertices,
 //
-//   A_ab = t_a t_b 2^16 q_ab,   |q_ab| < 2^15,   t_a^2 2^16 (2^15 - 1) = the largest number on the diagonal of A_aa
+//   A_ab = t_a t_b 2^16 q_ab,   |q_ab| < 2^15,
+//   t_a^2 2^16 (2^15 - 1) = the largest number on the diagonal of A_aa
 //
-// because no number of a positive definite matrix is above the root of its two diagonal ones.
-// Products take the scaled vector t x, so that scales cost nothing in the sum. Blocks of a row come
-// in pairs: number k of both in one word, the first in its upper half. Either half, with zeros
-// below it, is 2^16 q as an integer.
+// because no number of a positive definite matrix is above the root of the product of its two
+// diagonal numbers. Products take the scaled vector t x, so that scales cost nothing in the sum.
+// Blocks of a row come in pairs: number k of both in one word, the first in its upper half. Either
+// half, with zeros below it, is 2^16 q as an integer.
 //
 // Rows are stored in slices, a row per lane (kernels/sliced_rows.hpp), and so are the vectors that
-// a smoother works on: only what other rows gather lies vertex by vertex, four numbers each, of
-// which the last is 0.
+// a smoother works on. Only vectors that other rows gather are stored vertex by vertex, with four
+// numbers each, the last of which is 0. For float on AVX-512, which has 16 lanes:
 //
-//   entry e of a slice     column of 16 rows, twice    word 0 of 16 rows  ...  word 8 of 16 rows      float on AVX-512: 16 lanes
+//   entry e of a slice     column of 16 rows, twice    word 0 of 16 rows  ...  word 8 of 16 rows
 //   a vector by slots      x of 16 rows    y of 16 rows    z of 16 rows
-//   what is gathered       x y z 0   x y z 0   x y z 0   ...
+//   a gathered vector      x y z 0   x y z 0   x y z 0   ...
 namespace plica {
 
 template <class B>
@@ -33,18 +34,19 @@ struct PackedRows {
   int slices = 0;
   Indices<B> first;                ///< [slices + 1] pairs of blocks
   Indices<B> vertex;               ///< [slots] -1: none
-  Array<int* [2][height]> column;  ///< slots; what fills up a row points to itself
+  Array<int* [2][height]> column;  ///< slots; entries that fill up a row point to the row itself
   Array<int* [9][height]> word;
   Scalars<B> scale;  ///< [slots] t
 
   int slots() const { return slices * height; }
-  int items() const { return slots() / B::lanes; }  ///< of RowsAt
+  int items() const { return slots() / B::lanes; }  ///< work items of RowsAt
 };
 
-/// [slices] vectors, or symmetric blocks, of a slice's rows: component by component.
+/// Vectors by slots, component by component: [slices][3][rows of a slice].
 template <class B>
 using SlotVectors =
     Kokkos::View<typename B::Real* [3][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
+/// Symmetric blocks by slots, component by component: [slices][6][rows of a slice].
 template <class B>
 using SlotBlocks =
     Kokkos::View<typename B::Real* [6][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
@@ -80,14 +82,14 @@ KOKKOS_INLINE_FUNCTION void set_fours(const Fours<B>& x, const RowsAt<B>& at,
   const RowPack<B> four[4] = {value[0], value[1], value[2], RowPack<B>(0)};
   store_fours(four, [=](int l) { return to + 4 * l; });
 }
-/// The vector of one slot.
+/// Sets the vector of one slot.
 template <class B>
 KOKKOS_INLINE_FUNCTION void set_vector(const SlotVectors<B>& x, int slot,
                                        const Vec3<typename B::Real>& value) {
   for (int k = 0; k < 3; ++k) x(slot / slice_height<B>, k, slot % slice_height<B>) = value[k];
 }
 
-/// t of a vertex; 1 where its own block is not positive.
+/// Computes the scale t of a vertex; 1 where its own block is not positive.
 template <class B>
 struct ScaleOfVertex {
   BlockMatrix<B> A;
@@ -100,8 +102,8 @@ struct ScaleOfVertex {
   }
 };
 
-/// A row of blocks, packed; numbers that are too large are cut: A is not positive definite, or
-/// multiplies a vertex whose motion is given.
+/// Packs a row of blocks. Numbers that are too large are cut: there A is not positive definite, or
+/// the number multiplies a vertex whose motion is given.
 template <class B>
 struct PackRow {
   BlockMatrix<B> A;
@@ -127,7 +129,7 @@ struct PackRow {
   }
 };
 
-/// Both halves of a word, times 2^16.
+/// Unpacks both halves of a word, times 2^16.
 template <class T>
 KOKKOS_INLINE_FUNCTION void unpack(const int* word, T& upper, T& lower) {
 #if (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
@@ -146,7 +148,7 @@ KOKKOS_INLINE_FUNCTION void unpack(const int* word, T& upper, T& lower) {
   }
 }
 
-/// Rows of A x over their t, from t x. Per pair of blocks 44 bytes and 36 flops.
+/// Returns rows of A x divided by their t, from t x. Per pair of blocks 44 bytes and 36 flops.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> packed_product(const PackedRows<B>& A, const RowsAt<B>& at,
                                                        const Fours<B>& scaled) {

@@ -8,8 +8,8 @@
 // keeps every search direction zero there.
 namespace plica {
 
-/// q = (1 + b c) M p - a * (sum of the copies of -K p) + what is beside that, in fields of any
-/// precision and order.
+/// Computes q = (1 + b c) M p - a * (sum of the copies of -K p) + `beside`. q and `beside` may have
+/// another precision and order.
 template <class B, class Other = B, class To = Vectors<B>>
 struct SystemProduct {
   using Real = typename B::Real;
@@ -17,7 +17,7 @@ struct SystemProduct {
   Vectors<B> p, partial;
   To q;
   Real a, b;
-  Vectors<Other> beside = {};  ///< empty: nothing
+  Vectors<Other> beside = {};  ///< product of the parts without elements; empty: there are none
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real inertia = (1 + b * model.damping(i)) * model.mass(i);
@@ -28,8 +28,8 @@ struct SystemProduct {
   }
 };
 
-/// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the
-/// stiffness' own block, in the rows of the diagonal and the next (cyclic).
+/// Sets one column of the vertex blocks of A: (1 + b c) m on the diagonal, plus a times column
+/// `direction` of the stiffness' own block. It sets the rows of the diagonal and the next (cyclic).
 template <class B>
 struct DiagonalColumn {
   using Real = typename B::Real;
@@ -47,7 +47,7 @@ struct DiagonalColumn {
   }
 };
 
-/// q += scale * block p, with symmetric vertex blocks that are not from elements.
+/// Adds scale * block p to q, with symmetric vertex blocks that are not from elements.
 template <class B>
 struct AddBlockProduct {
   using Real = typename B::Real;
@@ -61,7 +61,7 @@ struct AddBlockProduct {
 };
 
 /// Inverts the vertex blocks in place. A block that is not positive definite (a material that
-/// softens) gives way to its mass.
+/// softens) is replaced by the vertex's mass term.
 template <class B>
 struct InvertBlocks {
   using Real = typename B::Real;

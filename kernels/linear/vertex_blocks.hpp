@@ -3,11 +3,11 @@
 #include <plica/core/matrices.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Matrices of 3x3 blocks: the vertices' own blocks, products with vectors, and the matrix of the
-// next coarser level.
+// Matrices of 3x3 blocks: the diagonal blocks of the vertices, products with vectors, and the
+// matrix of the next coarser level.
 namespace plica {
 
-/// diagonal = A's own blocks
+/// Copies the diagonal blocks of A.
 template <class B>
 struct TakeDiagonal {
   BlockMatrix<B> A;
@@ -17,8 +17,8 @@ struct TakeDiagonal {
   }
 };
 
-/// The inverse of a matrix's own block of every row. One that is not positive definite gives way to
-/// what is positive on its diagonal; an empty row's is 0.
+/// Inverts the diagonal block of every row of a matrix. For one that is not positive definite, the
+/// positive numbers on its diagonal are inverted alone; the inverse of an empty row is 0.
 template <class B>
 struct InvertDiagonal {
   using Real = typename B::Real;
@@ -33,7 +33,7 @@ struct InvertDiagonal {
   }
 };
 
-/// A += scale * symmetric vertex blocks
+/// Adds scale * symmetric vertex blocks to A.
 template <class B>
 struct AddToDiagonal {
   Blocks<B> block;
@@ -44,8 +44,8 @@ struct AddToDiagonal {
   }
 };
 
-/// A sum of blocks times vectors. A CPU takes a column as four numbers, the last of which is not
-/// used; so it adds up the products of columns with a vector, number by number, and sums up the
+/// Sum of blocks times vectors. A CPU takes a column as four numbers, the last of which is not
+/// used. It adds up the products of columns with a vector, number by number, and sums up the
 /// numbers of a column at the end.
 template <class Real>
 struct BlockSum {
@@ -58,7 +58,7 @@ struct BlockSum {
   void add(const Real* block, const Real* x) {
     for (int k = 0; k < 3; ++k) straight[k] += four(block + 3 * k) * x[k];
   }
-  /// Of the transposed block; the number after x is read.
+  /// Adds the transposed block times x; the number after x is read.
   void add_turned(const Real* block, const Real* x) {
     for (int k = 0; k < 3; ++k) turned[k] += four(block + 3 * k) * four(x);
   }
@@ -80,9 +80,9 @@ struct BlockSum {
 #endif
 };
 
-/// Row a of A x. Per stored block 9 s + 12 bytes, 36 flops, where those of rows above are still in
-/// a cache. Of a large matrix, what rows further down need is asked for early: a processor foresees
-/// no further than the page in memory.
+/// Returns row a of A x. Per stored block 9 s + 12 bytes, 36 flops, where the vectors of rows above
+/// are still in a cache. For a large matrix, blocks of rows further down are prefetched: a
+/// processor's own prefetching ends at the page in memory.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatrix<B>& A, int a,
                                                                 const Vectors<B>& x) {
@@ -110,7 +110,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatri
   return sum.sum();
 }
 
-/// y = A x
+/// Computes y = A x.
 template <class B>
 struct BlockProduct {
   BlockMatrix<B> A;
@@ -120,7 +120,7 @@ struct BlockProduct {
   }
 };
 
-/// y = A x and x.y
+/// Computes y = A x and x.y.
 template <class B>
 struct BlockProductDot {
   BlockMatrix<B> A;
@@ -132,7 +132,7 @@ struct BlockProductDot {
   }
 };
 
-/// A block as a sum over others. Per term 8 + 9 s bytes, 18 flops.
+/// Computes a block as a weighted sum of other blocks. Per term 8 + 9 s bytes, 18 flops.
 template <class B>
 struct SumOfBlocks {
   using Real = typename B::Real;
@@ -153,16 +153,16 @@ struct SumOfBlocks {
   }
 };
 
-/// The matrix of the next coarser level, P^T A P (Galerkin). Its block (I, J) couples two coarse
-/// vertices: it is the sum of the blocks (i, j) of A over all fine vertices i that hang on I and j
-/// that hang on J, each times the two weights:
+/// Computes the matrix of the next coarser level, P^T A P (Galerkin). Its block (I, J) couples two
+/// coarse vertices. It is the sum of the blocks (i, j) of A over all fine vertices i that hang on I
+/// and j that hang on J, each times the two weights:
 ///
 ///   coarse   I --------- J          (P^T A P)_IJ = sum over i, j of P_iI A_ij P_jJ
 ///           / \\         |
 ///   fine   i   i' ------ j          here i, i' hang on I, and j on J
 ///
-/// Which terms there are depends on the meshes alone: GalerkinMap lists them once, block by block.
-/// With A P made first there are a third as many as in the double sum.
+/// The terms depend on the meshes alone: GalerkinMap lists them once, block by block. With A P made
+/// first there are a third as many terms as in the double sum.
 template <class B>
 void galerkin_product(const typename B::Exec& exec, const GalerkinMap<B>& map,
                       const BlockMatrix<B>& A, const BlockMatrix<B>& coarse) {

@@ -4,11 +4,11 @@
 #include <plica/core/path.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// What is given from outside: vertices that follow a path, and loads.
+// Boundary conditions: vertices that follow a path, and loads.
 namespace plica {
 
-/// Where a path has got to at a time, and how fast it moves from there on. `knots` are those of all
-/// paths.
+/// Returns the displacement of a path at a time and its velocity from there on. `knots` are the
+/// knots of all paths.
 KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots, double time) {
   PathPoint p{time * path.velocity, path.velocity};
   if (path.rate > 0) {
@@ -18,7 +18,7 @@ KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots
   }
   if (path.knots > 0) {
     const PathKnot* k = knots + path.first_knot;
-    int after = 0;  // knots that time has reached
+    int after = 0;  // number of knots that time has reached
     for (int end = path.knots; after < end;) {
       const int middle = (after + end) / 2;
       if (k[middle].time <= time)
@@ -38,8 +38,8 @@ KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots
   return p;
 }
 
-/// The same with, for ahead > 0 [s], the mean velocity from there to time + ahead: an implicit step
-/// ends where the path does.
+/// Returns the displacement of a path at a time and, for ahead > 0 [s], its mean velocity up to
+/// time + ahead. With it an implicit step ends where the path does. For ahead = 0 it is path_at().
 KOKKOS_INLINE_FUNCTION PathPoint path_step(const Path& path, const PathKnot* knots, double time,
                                            double ahead) {
   PathPoint p = path_at(path, knots, time);
@@ -48,7 +48,7 @@ KOKKOS_INLINE_FUNCTION PathPoint path_step(const Path& path, const PathKnot* kno
   return p;
 }
 
-/// Vertices whose motion is given are where their path says, with its velocity: nothing is
+/// Puts the vertices whose motion is given where their path says, with its velocity. Nothing is
 /// integrated, so nothing drifts.
 template <class B>
 struct PrescribeMotion {
@@ -67,7 +67,8 @@ struct PrescribeMotion {
   }
 };
 
-/// Puts them into a level's state at a time [s]; see path_step() for `ahead`.
+/// Puts the vertices whose motion is given into a level's state at a time [s]; see path_step() for
+/// `ahead`.
 template <class B>
 void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
                double time, double ahead = 0) {
@@ -76,7 +77,7 @@ void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<
                        PrescribeMotion<B>{level.prescribed, state, time, ahead});
 }
 
-/// f += factor * the load's forces, vertex by vertex.
+/// Adds factor * the load's forces to f, vertex by vertex.
 template <class B>
 struct AddLoad {
   using Real = typename B::Real;

@@ -3,11 +3,11 @@
 #include <plica/core/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// What a simulation gives to and takes from its caller's arrays, whatever their precision and
-// layout. Per vertex 3 or 6 values in and 3 out.
+// Copies between a simulation and its caller's arrays, in any precision and layout. Per vertex 3 or
+// 6 values in and 3 out.
 namespace plica {
 
-/// Position x and velocity of surface point p, from a level's state.
+/// Computes position x and velocity of surface point p from a level's state.
 template <class B>
 KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u,
                                           const Vectors<B>& v, int p, Vec3<typename B::Real>& x,
@@ -16,7 +16,7 @@ KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vec
   speed = value_at<B>(s.embedding, v, p);
 }
 
-/// out = rest + u
+/// Copies positions: out = rest + u.
 template <class B, class Out>
 struct ReadPositions {
   Vectors<B> rest, u;
@@ -27,7 +27,7 @@ struct ReadPositions {
   }
 };
 
-/// out = v
+/// Copies vectors: out = v.
 template <class B, class Out>
 struct ReadVectors {
   Vectors<B> v;
@@ -37,7 +37,7 @@ struct ReadVectors {
   }
 };
 
-/// u = x - rest
+/// Sets displacements from positions: u = x - rest.
 template <class B, class In>
 struct WritePositions {
   In x;
@@ -49,7 +49,7 @@ struct WritePositions {
   }
 };
 
-/// v = x
+/// Sets vectors: v = x.
 template <class B, class In>
 struct WriteVectors {
   In x;
@@ -59,7 +59,7 @@ struct WriteVectors {
   }
 };
 
-/// out = the surface points' positions, or their velocities
+/// Copies the surface points' positions, or their velocities.
 template <class B, class Out>
 struct ReadSurfacePoints {
   EmbeddedSurface<B> surface;

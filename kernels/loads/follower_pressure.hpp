@@ -6,7 +6,7 @@
 
 namespace plica {
 
-/// Where the vertices of a load are, up to its origin [m].
+/// Positions of the vertices of a load, relative to its origin [m].
 template <class B>
 struct FollowerPlaces {
   using Real = typename B::Real;
@@ -16,8 +16,8 @@ struct FollowerPlaces {
     const int a = load.vertex(i);
     return {load.rest(i, 0) + u(a, 0), load.rest(i, 1) + u(a, 1), load.rest(i, 2) + u(a, 2)};
   }
-  /// A third of the area vectors A n of a vertex' triangles, n outwards [m^2]: A n = (x_1 - x_0) x
-  /// (x_2 - x_0) / 2. Over its own triangles in a stored order.
+  /// Returns a third of the area vectors A n of a vertex' triangles, n outwards [m^2]. A n = (x_1 -
+  /// x_0) x (x_2 - x_0) / 2. The sum is over the vertex' own triangles in a stored order.
   KOKKOS_INLINE_FUNCTION Vec3<Real> area(int i) const {
     const Vec3<Real> own = (*this)(i);
     Vec3<Real> twice;
@@ -34,18 +34,18 @@ struct GivenPressure {
   KOKKOS_INLINE_FUNCTION typename B::Real operator()() const { return *value; }
 };
 
-/// That of the fluid in a cavity, see Cavity.
+/// Pressure of the fluid in a cavity, see Cavity [Pa].
 template <class B>
 struct FluidPressure {
   Doubles<B> volume;
-  Changing<B, double> goal;  ///< [m^3]
+  Changing<B, double> goal;  ///< volume at which the pressure is 0 [m^3]
   double stiffness;          ///< [Pa/m^3]
   KOKKOS_INLINE_FUNCTION typename B::Real operator()() const {
     return static_cast<typename B::Real>(stiffness * (*goal - volume(0)));
   }
 };
 
-/// Adds a pressure p on triangles as they are now: each puts -p A n / 3 at its corners.
+/// Adds a pressure p on the deformed triangles: each puts -p A n / 3 at its corners.
 template <class B, class Pressure>
 struct AddFollowerPressure {
   using Real = typename B::Real;
@@ -59,12 +59,12 @@ struct AddFollowerPressure {
   }
 };
 
-/// q += scale K d, with K the symmetric part of minus the derivative of these forces at a given p.
-/// A triangle's area vector changes by half the sum over its corners of d_j x e_j, e_j = x_{j+1} -
-/// x_{j-1} its side opposite j, so that its corners' blocks are K_ij = -p/6 [e_j]x. Their symmetric
-/// parts are -p/12 [e_j - e_i]x, 0 for i = j. Where the triangles close a surface, or end in rims
-/// that do not move, the sum over them is symmetric: the forces are p times the derivative of a
-/// volume there (Bufler 1984, ZAMM 64:287).
+/// Adds scale K d to q, with K the symmetric part of minus the derivative of the pressure forces at
+/// a given p. A triangle's area vector changes by half the sum over its corners of d_j x e_j, e_j =
+/// x_{j+1} - x_{j-1} its side opposite j. So its corners' blocks are K_ij = -p/6 [e_j]x. Their
+/// symmetric parts are -p/12 [e_j - e_i]x, 0 for i = j. Where the triangles close a surface, or end
+/// in rims that do not move, the sum over them is symmetric: the forces are p times the derivative
+/// of a volume there (Bufler 1984, ZAMM 64:287).
 template <class B, class Pressure>
 struct AddFollowerProduct {
   using Real = typename B::Real;
@@ -87,7 +87,7 @@ struct AddFollowerProduct {
   }
 };
 
-/// A vertex's part of minus the rate at which the volume changes with d [m^2 x d].
+/// Part of a vertex in minus the rate at which the volume changes with d [m^2 x d].
 template <class B>
 struct VolumeRateOfCorner {
   FollowerPlaces<B> place;
@@ -97,8 +97,8 @@ struct VolumeRateOfCorner {
   }
 };
 
-/// q += scale k g (g . d): that the pressure of a fluid falls where the volume grows, g the
-/// derivative of the volume.
+/// Adds scale k g (g . d) to q, g the derivative of the volume: the pressure of a fluid falls where
+/// the volume grows.
 template <class B>
 struct AddFluidProduct {
   using Real = typename B::Real;
@@ -114,8 +114,8 @@ struct AddFluidProduct {
   }
 };
 
-/// A vertex's part of the volume on the outer side of its triangles, a third of - x_0 . (x_1 x x_2)
-/// / 6 of each [m^3].
+/// Part of a vertex in the volume on the outer side of its triangles [m^3]: a third of -x_0 . (x_1
+/// x x_2) / 6 of each triangle.
 template <class B>
 struct VolumeOfCorner {
   FollowerPlaces<B> place;

@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// W = mu sum over k = 1 ... 5 of C_k / N^(k - 1) (I1^k - 3^k), N = lambda_m^2, C = 1/2, 1/20,
-/// 11/1050, 19/7000, 519/673750. Arruda & Boyce, J. Mech. Phys. Solids 41, 1993: chains that lock
-/// at the stretch lambda_m, in a series of five terms.
+/// Law of Arruda & Boyce (J. Mech. Phys. Solids 41, 1993): chains that lock at the stretch
+/// lambda_m, in a series of five terms. W = mu sum over k = 1 ... 5 of C_k / N^(k - 1) (I1^k -
+/// 3^k), N = lambda_m^2, C = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
 struct ArrudaBoyce : InvariantLaw<ArrudaBoyce> {
   static constexpr const char* name = "arruda_boyce";
   static constexpr const char* summary =
@@ -31,7 +31,7 @@ struct ArrudaBoyce : InvariantLaw<ArrudaBoyce> {
         {coefficient[0], coefficient[1], coefficient[2], coefficient[3], coefficient[4]});
   }
 
-  /// I1^k - 3^k with x = I1 - 3, and its derivatives, from one k to the next.
+  /// Computes I1^k - 3^k with x = I1 - 3, and its derivatives, from one k to the next.
   template <class T>
   static KOKKOS_INLINE_FUNCTION OfInvariants<T> of_invariants(const T& x, const T&,
                                                               const IsochoricConstants<T>& c) {

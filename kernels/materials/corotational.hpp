@@ -5,14 +5,14 @@
 
 namespace plica {
 
-/// R is unique where (s2 + s1)(s3 + s1)(s3 + s2) > 0 with the singular values s1 >= s2 >= |s3|, s3
-/// of the sign of det F; it is not where the product is 0, as in F = 0, in a line or in a
-/// reflection. Below this part of s |F|^2 it counts as 0.
+/// Part of s |F|^2 below which (s2 + s1)(s3 + s1)(s3 + s2) counts as 0. Here s1 >= s2 >= |s3| are
+/// the singular values, s3 with the sign of det F. R is unique where the product is positive; it is
+/// not where the product is 0, as in F = 0, in a line or in a reflection.
 inline constexpr double least_turning = 1e-3;
 
-/// The same rotation R as below for one F, where several may maximise R:F and one of them is
-/// chosen: from the unit quaternion q that maximises q.K q = R(q):F (Horn 1987), found by squaring
-/// K, shifted, until its largest eigenvalue alone is left.
+/// Returns a rotation R that maximises R:F, also for an F where several do. It follows from the
+/// unit quaternion q that maximises q.K q = R(q):F (Horn 1987). q is found by squaring K, shifted,
+/// until its largest eigenvalue alone is left.
 template <class Real>
 PLICA_SELDOM KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F) {
   const Real shift = sqrt(Real(3) * inner(F, F)) + Real(Kokkos::Experimental::norm_min_v<Real>);
@@ -45,11 +45,12 @@ PLICA_SELDOM KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F
       Vec3<Real>{two * (x * z - w * y), two * (y * z + w * x), Real(1) - two * (x * x + y * y)}};
 }
 
-/// The rotation R, det R = 1, that maximises R:F: R^T F = S is symmetric with the signed singular
-/// values, the smallest of the sign of det F (for det F > 0 R is the polar factor). Without an
-/// eigen-solver: R:F is the largest root s of p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 - 4|cof F|^2,
-/// whose roots are the signed sums of the singular values; Newton's method descends to it from
-/// sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds), but where that root is not simple.
+/// Returns the rotation R, det R = 1, that maximises R:F. R^T F = S is symmetric with the signed
+/// singular values, the smallest with the sign of det F; for det F > 0, R is the polar factor. No
+/// eigen-solver is needed: R:F is the largest root s of p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 -
+/// 4|cof F|^2. The roots of p are the signed sums of the singular values; Newton's method descends
+/// to the largest from sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds). Where that root is not
+/// simple, any_nearest_rotation() gives R.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   using Real = typename LaneOf<T>::type;
@@ -60,7 +61,7 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   for (int i = 0; i < 24; ++i) {
     const T slope = max(T(4) * (s * s * s - n * s - T(2) * J), tiny);
     const T step = (((s * s - T(2) * n) * s - T(8) * J) * s + q) / slope;
-    // p'' step^2 / 2: over the slope, what the next step would be
+    // p'' step^2 / 2; divided by the slope, it is what the next step would be
     const T next = (T(6) * s * s - T(2) * n) * step * step;
     s = s - step;
     if (all_positive(T(Kokkos::Experimental::epsilon_v<Real>) * s * slope + tiny - next)) break;
@@ -83,10 +84,11 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   return R;
 }
 
-/// Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F: Hooke's law in the
-/// rotated frame, with the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et
-/// al. 2011). Finite everywhere, and its energy in the signed singular values has no minimum but at
-/// rest: inverted elements are pushed back along the axis that takes least.
+/// Corotational law: Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F. It
+/// is Hooke's law in the rotated frame, with the exact derivative of R (Chao, Pinkall, Sanan &
+/// Schroeder 2010; McAdams et al. 2011). It is finite everywhere. Its energy in the signed singular
+/// values has no minimum but at rest: inverted elements are pushed back along the axis that takes
+/// least.
 struct Corotational : TwoConstants {
   static constexpr const char* name = "corotational";
   static constexpr const char* summary =
@@ -110,8 +112,8 @@ struct Corotational : TwoConstants {
     return (c.mu + c.mu) * (F - R) + (c.lambda * (inner(R, F) - T(3))) * R;
   }
 
-  /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F; 0 where R is
-  /// not unique.
+  /// Tangent dP/dF: dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F.
+  /// dR is 0 where R is not unique.
   template <class T>
   struct Tangent {
     Mat3<T> R, turning;  // (tr(S) I - S)^-1
@@ -150,7 +152,7 @@ struct Corotational : TwoConstants {
               s[(i + 1) % 3] * turned[(i + 2) % 3][k] - s[(i + 2) % 3] * turned[(i + 1) % 3][k];
       return made;
     }
-    /// 2 mu (p.q) I + lambda (R p)(R q)^T + (2 mu - stretch) [R p]x R turning R^T [R q]x
+    /// Returns 2 mu (p.q) I + lambda (R p)(R q)^T + (2 mu - stretch) [R p]x R turning R^T [R q]x.
     KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
       Mat3<T> K = Mat3<T>::diagonal((c.mu + c.mu) * dot(p.g, q.g));
       for (int i = 0; i < 3; ++i) K[i] += (c.lambda * p.r[i]) * q.r + cross(p.left[i], q.r);

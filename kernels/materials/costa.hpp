@@ -11,10 +11,10 @@ constexpr MaterialParameter strain_weight(const char* name, const char* help, do
 }
 }  // namespace parameter
 
-/// W = a/2 (e^Q - 1), Q = sum over i and j of b_ij E_ij^2, E = (C - 1)/2 in the axes of fibre f,
-/// sheet s and normal n = f x s. Costa, Holmes & McCulloch, Phil. Trans. R. Soc. A 359, 2001; with
-/// b_ss = b_nn = b_sn and b_fs = b_fn that of Guccione, McCulloch & Waldman, J. Biomech. Eng. 113,
-/// 1991.
+/// Costa's law for heart muscle: W = a/2 (e^Q - 1), Q = sum over i and j of b_ij E_ij^2, E = (C -
+/// 1)/2 in the axes of fibre f, sheet s and normal n = f x s. Costa, Holmes & McCulloch, Phil.
+/// Trans. R. Soc. A 359, 2001. With b_ss = b_nn = b_sn and b_fs = b_fn it is the law of Guccione,
+/// McCulloch & Waldman, J. Biomech. Eng. 113, 1991.
 struct Costa : Isochoric<Costa> {
   static constexpr const char* name = "costa";
   static constexpr const char* summary =
@@ -39,8 +39,8 @@ struct Costa : Isochoric<Costa> {
                      {p[0], p[1], p[2], p[3], p[4], p[5], p[6]});
   }
 
-  /// The strains E_ij in the fibres' axes and the matrices M_ij = sym(a_i a_j^T) that give them: ff
-  /// ss nn fs fn sn.
+  /// Strains E_ij in the fibres' axes, and the matrices M_ij = sym(a_i a_j^T) that give them.
+  /// Order: ff ss nn fs fn sn.
   template <class T>
   struct Strains {
     Mat3<T> M[6];
@@ -60,7 +60,7 @@ struct Costa : Isochoric<Costa> {
       for (int k = 0; k < 6; ++k) Q += times(k) * c.own[1 + k] * E[k] * E[k];
       return Q;
     }
-    /// dQ/dE / 2
+    /// Returns dQ/dE / 2.
     KOKKOS_INLINE_FUNCTION Mat3<T> slope(const IsochoricConstants<T>& c) const {
       Mat3<T> G;
       for (int k = 0; k < 6; ++k) G = G + (times(k) * c.own[1 + k] * E[k]) * M[k];

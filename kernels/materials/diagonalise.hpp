@@ -4,7 +4,7 @@
 
 namespace plica {
 
-/// Whether what is off the diagonal is at most rounding in every lane.
+/// Returns true where the numbers off the diagonal are at most rounding in every lane.
 template <class T, int n>
 KOKKOS_INLINE_FUNCTION bool is_diagonal(const T (&A)[n][n]) {
   using Real = typename LaneOf<T>::type;
@@ -17,8 +17,8 @@ KOKKOS_INLINE_FUNCTION bool is_diagonal(const T (&A)[n][n]) {
   return all_positive(T(tiny * tiny) * on + T(Kokkos::Experimental::norm_min_v<Real>) - off);
 }
 
-/// Symmetric A = V diag V^T by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 4th
-/// ed., alg. 8.5.3); A becomes diag.
+/// Diagonalises a symmetric A = V diag V^T by cyclic Jacobi rotations; A becomes diag. Golub & Van
+/// Loan, Matrix Computations, 4th ed., alg. 8.5.3.
 template <class T, int n>
 KOKKOS_INLINE_FUNCTION void diagonalise(T (&A)[n][n], T (&V)[n][n]) {
   using Real = typename LaneOf<T>::type;

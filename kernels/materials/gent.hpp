@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// W = -mu J_m/2 ln(1 - (I1 - 3)/J_m). Gent, Rubber Chem. Technol. 69, 1996: it locks where I1 - 3
-/// comes to J_m. Beyond 15/16 of that it goes on as its Taylor polynomial of second order: finite
-/// for any element.
+/// Gent's law: W = -mu J_m/2 ln(1 - (I1 - 3)/J_m). It locks where I1 - 3 comes to J_m (Gent, Rubber
+/// Chem. Technol. 69, 1996). Beyond 15/16 of J_m it is continued by its Taylor polynomial of second
+/// order, which is finite for any element.
 struct Gent : InvariantLaw<Gent> {
   static constexpr const char* name = "gent";
   static constexpr const char* summary = "rubber and arteries: locks where I1 - 3 comes to j_m";

@@ -5,10 +5,11 @@
 
 namespace plica {
 
-/// W = c/2 (I1 - 3) + k1/(2 k2) sum over a of (e^(k2 <E_a>^2) - 1), E_a = kappa (I1 - 3) + (1 - 3
-/// kappa) (I4a - 1), of two families of fibres at plus and minus `angle` from the axis, in the
-/// plane of axis and sheet; they bear tension only. Holzapfel, Gasser & Ogden, J. Elasticity 61,
-/// 2000; with dispersion kappa: Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006.
+/// Law of Holzapfel, Gasser & Ogden for arteries, with two families of fibres: W = c/2 (I1 - 3) +
+/// k1/(2 k2) sum over a of (e^(k2 <E_a>^2) - 1), E_a = kappa (I1 - 3) + (1 - 3 kappa) (I4a - 1).
+/// The families are at plus and minus `angle` from the axis, in the plane of axis and sheet; they
+/// bear tension only. Holzapfel, Gasser & Ogden, J. Elasticity 61, 2000; with dispersion kappa:
+/// Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006.
 struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
   static constexpr const char* name = "holzapfel_gasser_ogden";
   static constexpr const char* summary =
@@ -37,7 +38,8 @@ struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
       parameter::bulk_modulus};
   static bool needs_sheet(const double* p) { return std::sin(2 * p[4]) != 0; }
   static Constants<double> kernel_constants(const double* p) {
-    const double aligned = 1 - 3 * p[3];  // of small strains: see transversely_isotropic
+    // mu bounds small strains, by the inequality in transversely_isotropic.hpp for each family
+    const double aligned = 1 - 3 * p[3];
     Constants<double> c =
         constants(p + parameters.size(), p[5], p[0] + 8.0 / 3 * p[1] * aligned * aligned,
                   {p[0], p[1], p[2], p[3], aligned});
@@ -46,7 +48,7 @@ struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
     return c;
   }
 
-  /// E_a = M_a:C - 1
+  /// Returns M_a, which gives E_a = M_a:C - 1.
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> structure(const IsochoricConstants<T>& c, int a) {
     return Mat3<T>::diagonal(c.own[3]) + c.own[4] * outer(c.axis[a], c.axis[a]);

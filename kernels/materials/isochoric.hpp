@@ -6,27 +6,31 @@
 #include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/materials/volume_ratio.hpp>
 
-// What laws of tissue have in common: Psi(F) = W(C) + U(J), C = R(J) F^T F with R = J^(-2/3). A law
-// is a struct derived from Isochoric<Law>, with W and its two derivatives; the rest, down to det F
-// <= 0, is here, see volume_ratio.hpp. It has
-//   name, summary, parameters, kernel_constants(p), and of the statements in material.hpp those that differ from below
+// Basis of the laws of tissue: Psi(F) = W(C) + U(J), C = R(J) F^T F with R = J^(-2/3). A law is a
+// struct derived from Isochoric<Law>, with W and its two derivatives. The rest is in this file,
+// down to det F <= 0 (volume_ratio.hpp). A law has
+//   name, summary, parameters, kernel_constants(p), and the statements in material.hpp that
+//                             differ from those of Isochoric
 //   isochoric(C, c)           W [J/m^3]
 //   respond(C, c, to)         S = 2 dW/dC and dS/dC as a sum, by calls of `to`: see IsochoricStress
-//   shape_at_rest(e, c)       where it has fibres: the stress of a small strain e without a trace, itself up to its trace
+//   shape_at_rest(e, c)       where it has fibres: the stress of a small strain e without a trace,
+//                             determined up to the trace of the stress
 namespace plica {
 
-/// What kernels get of every law: the same for all, so that all can share their kernels.
+/// Constants that kernels get of every law. Their form is one for all laws, so that all share their
+/// kernels.
 template <class T>
 struct IsochoricConstants {
-  T law;       ///< its place in IsochoricLaws
-  T volume;    ///< of Volumetric
-  T bulk, mu;  ///< kappa; mu at rest, or what bounds it [Pa]
-  T own[12];   ///< of the law
-  /// unit vectors: of fibres and, orthogonal to it, of their sheet; or of two families of fibres
+  T law;       ///< place of the law in IsochoricLaws
+  T volume;    ///< choice of Volumetric
+  T bulk, mu;  ///< kappa; mu at rest, or a bound of it [Pa]
+  T own[12];   ///< constants of the law
+  /// Unit vectors: of the fibres and, orthogonal to these, of their sheet; or of two families of
+  /// fibres
   Vec3<T> axis[2];
 };
 
-/// U(J) and its derivatives, kappa at rest.
+/// Energy U(J) of the volume and its derivatives; the second derivative at rest is kappa.
 template <class T>
 struct Volumetric {
   enum Choice { simo_hughes, logarithmic, quadratic };
@@ -47,21 +51,22 @@ struct Volumetric {
   }
 };
 
-/// Takes S = sum of w M.
+/// Receiver of a law's stress: S = sum of w M.
 template <class T>
 struct IsochoricStress {
   Mat3<T> S;
   KOKKOS_INLINE_FUNCTION void stress(const T& w, const Mat3<T>& M) { S = S + w * M; }
-  // Of dS/dC: the symmetric matrices M and N as dC -> w (M:dC) M, w ((M:dC) N + (N:dC) M), w dC
+  // Terms of dS/dC, with symmetric matrices M and N, in the order of the functions: dC -> w (M:dC)
+  // M, w ((M:dC) N + (N:dC) M), w dC
   KOKKOS_INLINE_FUNCTION void square(const T&, const Mat3<T>&) {}
   KOKKOS_INLINE_FUNCTION void pair(const T&, const Mat3<T>&, const Mat3<T>&) {}
   KOKKOS_INLINE_FUNCTION void identity(const T&) {}
 };
 
-/// Takes S and dS/dC.
+/// Receiver of a law's S and dS/dC.
 template <class T>
 struct IsochoricStiffness : IsochoricStress<T> {
-  T D[6][6];  ///< of six_of(dC), whose last three count twice
+  T D[6][6];  ///< dS/dC by six_of(dC), whose last three count twice
   KOKKOS_INLINE_FUNCTION IsochoricStiffness() {
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) D[i][j] = T(0);
@@ -95,7 +100,7 @@ struct IsochoricStiffness : IsochoricStress<T> {
   }
 };
 
-/// F^T G + G^T F, and half of it for G = F
+/// Returns F^T G + G^T F; gram(F) is half of it for G = F.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> symmetric_product(const Mat3<T>& F, const Mat3<T>& G) {
   const Mat3<T> A = transpose(F) * G;
@@ -111,8 +116,8 @@ KOKKOS_INLINE_FUNCTION Mat3<T> gram(const Mat3<T>& F) {
   return matrix_of(c);
 }
 
-/// e^q and its derivatives for laws that stiffen exponentially; beyond q = 20, where it is 5e8, its
-/// Taylor polynomial of second order: finite for any element.
+/// Value e^q and its derivatives, for laws that stiffen exponentially. Beyond q = 20, where it is
+/// 5e8, it is continued by its Taylor polynomial of second order, which is finite for any element.
 template <class T>
 struct Exponential {
   T less_one, first, second;
@@ -123,14 +128,15 @@ struct Exponential {
   }
 };
 
-/// Those that stand behind a law's parameters.
+/// Returns the settings that stand behind a law's parameters.
 inline TissueSettings settings_at(const double* values) {
   TissueSettings s;
   std::memcpy(static_cast<void*>(&s), values, sizeof s);
   return s;
 }
 
-/// P = F (R S - mu A) + g cof F with A of CrushedTerm and g = dU/dJ + dR/dJ h, h = S:F^T F / 2.
+/// Base of a law: P = F (R S - mu A) + g cof F with A of CrushedTerm and g = dU/dJ + dR/dJ h, h =
+/// S:F^T F / 2.
 template <class Law>
 struct Isochoric {
   static constexpr bool rotation_invariant = true;
@@ -142,7 +148,8 @@ struct Isochoric {
   template <class T>
   using Constants = IsochoricConstants<T>;
 
-  /// Of kernel_constants(p): p + the law's own number of parameters are the settings.
+  /// Returns the constants for kernel_constants(p). The settings stand behind the law's own
+  /// parameters, at p + their number.
   static IsochoricConstants<double> constants(const double* settings, double bulk, double mu,
                                               std::initializer_list<double> own) {
     const TissueSettings s = settings_at(settings);
@@ -179,8 +186,8 @@ struct Isochoric {
     return F * (R * law.S - Mat3<T>::diagonal(c.mu * CrushedTerm<T>(trace(C)).stress())) + g * H;
   }
 
-  /// dP = dF S + F (D:dC + dJ Z) + g d(cof F) + (k dJ + Z:dC/2) cof F with S as above, Z = dR/dJ (R
-  /// dS/dC:C + S).
+  /// Tangent: dP = dF S + F (D:dC + dJ Z) + g d(cof F) + (k dJ + Z:dC/2) cof F. S is R S - mu A of
+  /// the stress, and Z = dR/dJ (R dS/dC:C + S) with the law's own S.
   template <class T>
   struct Tangent {
     Mat3<T> F, H, S, Z;
@@ -247,13 +254,13 @@ struct Isochoric {
   }
 };
 
-/// W and its derivatives by the invariants of C: x = I1 - 3, y = I2 - 3.
+/// Energy W and its derivatives by the invariants of C: x = I1 - 3, y = I2 - 3.
 template <class T>
 struct OfInvariants {
   T W, x, y, xx, xy, yy;
 };
 
-/// A law with W(I1, I2): it has of_invariants(x, y, c).
+/// Base of a law with W(I1, I2), which provides of_invariants(x, y, c).
 template <class Law>
 struct InvariantLaw : Isochoric<Law> {
   template <class T>

@@ -4,14 +4,15 @@
 
 namespace plica {
 
-/// Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. Not for rotations:
-/// turned by theta about z, the unstrained body feels sigma_xx = 2 (mu + lambda) (cos theta - 1).
+/// Hooke's law: Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. It is
+/// not for rotations: turned by theta about z, the unstrained body has sigma_xx = 2 (mu + lambda)
+/// (cos theta - 1).
 struct Linear : TwoConstants {
   static constexpr const char* name = "linear";
   static constexpr const char* summary = "Hooke's law; small displacements and rotations only";
   static constexpr bool rotation_invariant = false;
   static constexpr bool survives_inversion = true;
-  static constexpr bool recovers = true;  // its energy is convex
+  static constexpr bool recovers = true;  // the energy is convex
   static constexpr bool allows_inversion = true;
 
   template <class T>

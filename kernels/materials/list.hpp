@@ -9,14 +9,14 @@
 
 namespace plica {
 
-/// Materials with kernels of their own. One more: its file above, its name here. Laws of invariants
-/// and fibres are better in tissue_laws.hpp, which costs no kernels.
+/// Materials with kernels of their own. To add one, include its file and name it here. Laws of
+/// invariants and fibres are better in tissue_laws.hpp, where they need no further kernels.
 using OwnMaterials = TypeList<StVenantKirchhoff, Corotational, NeoHookean, Linear>;
 
 /// Every material there is.
 using Materials = JoinedLists<OwnMaterials, IsochoricLaws>::type;
 
-/// Whose kernels compute a material.
+/// Material whose kernels compute a given material.
 template <class Material>
 using KernelsOf = std::conditional_t<IsochoricLaws::has<Material>, TissueLaws, Material>;
 

@@ -13,28 +13,35 @@
 // number or a pack:
 //   energy(F, c)              energy density per rest volume [J/m^3]
 //   stress(F, c)              first Piola-Kirchhoff stress P = d energy/dF [Pa]
-//   Tangent<T>(F, c)          dP/dF at F: (dF) -> dP/dF : dF [Pa], symmetric as a bilinear form; what dF does not enter is
-//                             worked out once. Its corner(g), of a gradient g, and block(p, q) of two such give the matrix
-//                             a -> (dP/dF : (a q^T)) p, symmetric in (p, q) but for a transposition: an element matrix in few operations
-//   stress_change(F, dF, c)   the same for one dF
-//   stress_at_rest(G, c)      dP/dF at rest : G [Pa], symmetric; of a fibre that bears tension only as if it were under tension
-// with constants c of the type Constants<T>, a struct of members of type T and nothing else, as
-// many as it likes. It declares
+//   Tangent<T>(F, c)          dP/dF at F: (dF) -> dP/dF : dF [Pa], symmetric as a bilinear form;
+//                             what dF does not enter is worked out once. Its corner(g), of a
+//                             gradient g, and block(p, q) of two corners give the matrix
+//                             a -> (dP/dF : (a q^T)) p, an element matrix in few operations;
+//                             exchange of p and q transposes it
+//   stress_change(F, dF, c)   dP/dF : dF for a single dF
+//   stress_at_rest(G, c)      dP/dF at rest : G [Pa], symmetric; a fibre that bears tension only
+//                             counts as if it were under tension
+// The constants c have the type Constants<T>, a struct of any number of members of type T and
+// nothing else. A material declares
 //   parameters                std::array of the MaterialParameters that a scene gives
-//   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
+//   kernel_constants(p)       Constants<double> of their values, in that order; once per region
 //   small_strains(c)          Lame's constants of its tangent at rest, by which steps are bounded
-//   splits_shape              where its energy is W of the shape, J^(-2/3) F^T F, and U of the volume: what Prony series act on
-//   with_lambda(c, lambda)    where its volume has a stiffness of its own: the constants with another one, and lambda at rest
-// and says of itself:
+//   splits_shape              where its energy is W of the shape, J^(-2/3) F^T F, and U of the
+//                             volume: Prony series act on W
+//   with_lambda(c, lambda)    where its volume has a stiffness of its own: the constants with
+//                             another volume stiffness, such that Lame's constant at rest is lambda
+// and has these properties:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
 //   isotropic                 its tangent at rest is that of small_strains(), which else bounds it
 //   survives_inversion        finite with finite derivatives for det F <= 0
-//   recovers                  no stable state but rotations: inverted, flat and collapsed elements are pushed back
-//   allows_inversion          whether an element with det F <= 0 goes on where a scene does not say, or ends the run
+//   recovers                  no stable state but rotations: inverted, flat and collapsed elements
+//                             are pushed back
+//   allows_inversion          an element with det F <= 0 goes on where a scene does not say, else
+//                             it ends the run
 namespace plica {
 
-/// What materials have in common that are given by Young's modulus and Poisson's ratio.
+/// Base of the materials that are given by Young's modulus and Poisson's ratio.
 struct TwoConstants {
   template <class T>
   using Constants = Lame<T>;
@@ -50,18 +57,18 @@ struct TwoConstants {
   }
 };
 
-/// A corner for block() where a tangent has no shorter way: dP for e_k g^T.
+/// Corner for block() where a tangent has no shorter way: dP for e_k g^T.
 template <class T>
 struct ColumnsOfCorner {
   Vec3<T> g;
   Mat3<T> dP[3];
-  /// That of corner p and this one.
+  /// Returns the block of corner p and this corner.
   KOKKOS_INLINE_FUNCTION Mat3<T> block(const ColumnsOfCorner& p) const {
     return transpose(Mat3<T>{dP[0] * p.g, dP[1] * p.g, dP[2] * p.g});
   }
 };
 
-/// How many constants a material's kernels get.
+/// Number of constants that a material's kernels get.
 template <class Material>
 inline constexpr int constant_count =
     static_cast<int>(sizeof(typename Material::template Constants<double>) / sizeof(double));
@@ -73,7 +80,7 @@ KOKKOS_INLINE_FUNCTION auto load_each_constant(const View& all, int set,
       T(all(set * constant_count<Material> + static_cast<int>(k)))...};
 }
 
-/// Constants<double> one after the other, as load_constants() takes them.
+/// Returns the numbers of Constants<double> one after the other, as load_constants() reads them.
 template <class Constants>
 std::vector<double> as_list(const Constants& constants) {
   static_assert(std::is_trivially_copyable_v<Constants> && sizeof(Constants) % sizeof(double) == 0);
@@ -82,7 +89,7 @@ std::vector<double> as_list(const Constants& constants) {
   return list;
 }
 
-/// Set number `set` of a list of all sets' numbers, the same in all lanes.
+/// Loads set number `set` from a list of all sets' numbers, equal in all lanes.
 template <class Material, class T, class View>
 KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all,
                                                                                int set) {
@@ -90,8 +97,8 @@ KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(c
                                          std::make_index_sequence<constant_count<Material>>());
 }
 
-/// Those of set `set`, with the directions of fibres at `slot` and behind it, one in each lane,
-/// where elements have their own.
+/// Loads set number `set`, with the directions of fibres of each element where elements have their
+/// own. The directions are at `slot` and behind it, one in each lane.
 template <class Material, class T, class View>
 KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(
     const View& all, int set, [[maybe_unused]] const View& fibres, [[maybe_unused]] int slot) {
@@ -105,16 +112,17 @@ KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(
   return c;
 }
 
-/// The true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd
-/// ed., eq. 5.45a.
+/// Returns the true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for
+/// FEA, 2nd ed., eq. 5.45a.
 template <class Material, class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> cauchy_stress(const Mat3<T>& F,
                                              const typename Material::template Constants<T>& c) {
   return (T(1) / determinant(F)) * (Material::stress(F, c) * transpose(F));
 }
 
-/// von Mises' equivalent stress sqrt(3/2 s : s), s the deviator [Pa]; of the symmetric part, since
-/// a law for small strains gives a symmetric Cauchy stress to first order only.
+/// Returns von Mises' equivalent stress sqrt(3/2 s : s), s the deviator [Pa]. It takes the
+/// symmetric part, since a law for small strains gives a symmetric Cauchy stress to first order
+/// only.
 template <class T>
 KOKKOS_INLINE_FUNCTION T von_mises(const Mat3<T>& sigma) {
   const T x = sigma[0][0] - sigma[1][1], y = sigma[1][1] - sigma[2][2],

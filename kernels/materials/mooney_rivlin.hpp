@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// W = c10 (I1 - 3) + c01 (I2 - 3). Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics,
-/// eq. 6.128.
+/// Mooney-Rivlin law: W = c10 (I1 - 3) + c01 (I2 - 3). Mooney 1940, Rivlin 1948; Holzapfel,
+/// Nonlinear Solid Mechanics, eq. 6.128.
 struct MooneyRivlin : InvariantLaw<MooneyRivlin> {
   static constexpr const char* name = "mooney_rivlin";
   static constexpr const char* summary = "rubber-like, large strains: c10 (I1 - 3) + c01 (I2 - 3)";

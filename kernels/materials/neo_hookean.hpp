@@ -5,14 +5,14 @@
 
 namespace plica {
 
-/// Psi = kappa/4 (J^2 - 1 - 2 ln J) + mu/2 (J^(-2/3) I - 3), I = tr(F^T F), kappa = lambda + 2
-/// mu/3. Simo & Hughes, Computational Inelasticity, eq. 9.2.6. That is infinite at J = 0; below J0
-/// = 0.1 it goes on as volume_ratio.hpp says. dPsi/dJ stays below 0 down to any inversion: elements
-/// are pushed back, and with the term at F = 0 no state but rotations is a minimum: along F = r 1,
-/// r^3 < J0, the energy falls with r, which takes a factor of 10.7/2 at least; inverted r 1 may be
-/// saddles.
+/// Neo-Hookean law: Psi = kappa/4 (J^2 - 1 - 2 ln J) + mu/2 (J^(-2/3) I - 3), I = tr(F^T F), kappa
+/// = lambda + 2 mu/3. Simo & Hughes, Computational Inelasticity, eq. 9.2.6. This Psi is infinite at
+/// J = 0; below J0 = 0.1 it is continued as volume_ratio.hpp says. dPsi/dJ stays below 0 down to
+/// any inversion, so that inverted elements are pushed back. With the term at F = 0 (CrushedTerm)
+/// no state but rotations is a minimum: along F = r 1, r^3 < J0, the energy falls with r. For this
+/// the factor of that term must be at least 10.7/2; inverted r 1 may be saddles.
 ///
-/// Kernels, with s and w of volume_ratio.hpp and H = cof F: P = A F + g H,
+/// Formulas of the kernels, with s and w of volume_ratio.hpp and H = cof F: P = A F + g H,
 ///   A = 2 dPsi/dI = mu (R - 12 J0^(-2/3) (1 - I/I0)_+^2),   R for J^(-2/3)
 ///   g = dPsi/dJ   = kappa/2 (J - (3 - w^2)/(2 J_c)) + dA/dJ I/2.
 struct NeoHookean : TwoConstants {
@@ -25,7 +25,7 @@ struct NeoHookean : TwoConstants {
   static constexpr bool recovers = true;
   static constexpr bool allows_inversion = false;
   static constexpr bool splits_shape = true;
-  /// With the energy of shape times `share`, and kappa = bulk.
+  /// Returns the constants with the energy of shape times `share`, and kappa = bulk.
   static Lame<double> with_shape(const Lame<double>& c, double share, double bulk) {
     return {bulk - 2 * share * c.mu / 3, share * c.mu};
   }
@@ -35,7 +35,7 @@ struct NeoHookean : TwoConstants {
     return c.lambda + T(2.0f) / T(3.0f) * c.mu;
   }
 
-  /// What the three functions share.
+  /// Terms that energy, stress and tangent share.
   template <class T>
   struct Terms : VolumeRatio<T> {
     Mat3<T> H;
@@ -48,7 +48,7 @@ struct NeoHookean : TwoConstants {
     KOKKOS_INLINE_FUNCTION T A(const T& mu) const {
       return mu * (this->factor() - crushed.stress());
     }
-    /// dA/dJ
+    /// Returns dA/dJ.
     KOKKOS_INLINE_FUNCTION T A_J(const T& mu) const { return mu * this->factor_slope(); }
   };
 
@@ -70,7 +70,7 @@ struct NeoHookean : TwoConstants {
   template <class T>
   struct Tangent {
     Mat3<T> F, H;
-    T A, A_J, A_I, g, g_J;  // A_I of dF:F, not of dI
+    T A, A_J, A_I, g, g_J;  // A_I: factor of dF:F, not of dI
     KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& at, const Lame<T>& c) : F(at) {
       const Terms<T> t(F);
       const T k = bulk(c);
@@ -85,10 +85,11 @@ struct NeoHookean : TwoConstants {
              (g_J * dJ + A_J * along) * H;
     }
     struct Corner {
-      Vec3<T> g, f, h;  // with F and H
+      Vec3<T> g, f, h;  // f = F g, h = H g
     };
     KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& x) const { return {x, F * x, H * x}; }
-    /// A (p.q) I + (F p) dA^T + (H p) dg^T + g [F (q x p)]x with the derivatives dA and dg for q.
+    /// Returns A (p.q) I + (F p) dA^T + (H p) dg^T + g [F (q x p)]x with the derivatives dA and dg
+    /// for q.
     KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
       const Vec3<T> dA = A_J * q.h + A_I * q.f, dg = g_J * q.h + A_J * q.f;
       return Mat3<T>::diagonal(A * dot(p.g, q.g)) + outer(p.f, dA) + outer(p.h, dg) +

@@ -6,11 +6,12 @@
 
 namespace plica {
 
-/// W = sum over terms of c_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3) of the isochoric principal
-/// stretches l, l^2 the eigenvalues of C, up to six terms. Ogden, Proc. R. Soc. A 326, 1972. Of mu
-/// there are three conventions, see cmake/docs/materials.md: c = mu/alpha^2, mu/alpha or 2
-/// mu/alpha^2. Beyond stretches of 1/10 and 10 the powers of l^2 go on by their Taylor polynomial
-/// of second order. A power below 0 is a wall that flattened elements do not come back through.
+/// Ogden's law: W = sum over terms of c_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3), up to six
+/// terms. l are the isochoric principal stretches; l^2 are the eigenvalues of C. Ogden, Proc. R.
+/// Soc. A 326, 1972. There are three conventions for mu, see cmake/docs/materials.md: c =
+/// mu/alpha^2, mu/alpha or 2 mu/alpha^2. Beyond stretches of 1/10 and 10 the powers of l^2 are
+/// continued by their Taylor polynomial of second order. A power below 0 makes a barrier that
+/// flattened elements do not come back through.
 struct Ogden : Isochoric<Ogden> {
   static constexpr const char* name = "ogden";
   static constexpr const char* summary =
@@ -30,7 +31,7 @@ struct Ogden : Isochoric<Ogden> {
     return c;
   }
 
-  /// Sum of c_p x^(alpha_p/2) less its value at 1, and derivatives.
+  /// Sum of c_p x^(alpha_p/2) less its value at 1, and its derivatives.
   template <class T>
   struct Powers {
     T value = T(0), first = T(0), second = T(0);
@@ -62,7 +63,7 @@ struct Ogden : Isochoric<Ogden> {
       diagonalise(A, V);
       for (int i = 0; i < 3; ++i) x[i] = A[i][i], axis[i] = {V[0][i], V[1][i], V[2][i]};
     }
-    /// (w'(x_i) - w'(x_j)) / (x_i - x_j), where they are close by w''.
+    /// Returns (w'(x_i) - w'(x_j)) / (x_i - x_j), computed from w'' where x_i and x_j are close.
     KOKKOS_INLINE_FUNCTION T divided(int i, int j) const {
       using Real = typename LaneOf<T>::type;
       const T gap = x[i] - x[j];
@@ -74,7 +75,8 @@ struct Ogden : Isochoric<Ogden> {
       }
       return slope;
     }
-    /// The cube root of rounding, where both ways are about as exact.
+    /// Returns the cube root of rounding: at this relative distance both formulas of divided() are
+    /// about as exact.
     template <class Real>
     static KOKKOS_INLINE_FUNCTION constexpr Real closest() {
       return sizeof(Real) == sizeof(double) ? Real(6e-6) : Real(5e-3);

@@ -2,10 +2,10 @@
 #pragma once
 #include <plica/core/keys.hpp>
 
-// What materials are given. No kernel, no Kokkos: lists, validation and readers include this.
+// Parameters of materials. No kernel, no Kokkos: lists, validation and readers include this file.
 namespace plica {
 
-/// Those that are options of every body.
+/// Parameters of materials that are options of every body.
 namespace parameter {
 inline constexpr MaterialParameter young_modulus{
     "young_modulus", {keys::pressure, keys::positive}, "stiffness E", 20e3};
@@ -14,7 +14,7 @@ inline constexpr MaterialParameter poisson_ratio{
     {keys::plain, {.min = 0, .max = 0.5, .max_excluded = true}},
     "lateral contraction nu",
     0.4};
-// Those that several laws of tissue have.
+// Parameters that several laws of tissue have in common
 inline constexpr MaterialParameter bulk_modulus{
     "bulk_modulus",
     {keys::pressure, keys::positive},
@@ -33,14 +33,14 @@ inline constexpr MaterialParameter c01{
     "c01", {keys::pressure}, "of mooney_rivlin and polynomial: times I2 - 3", 1e3};
 }  // namespace parameter
 
-/// What laws of tissue get beside their parameters, behind them.
+/// Settings that laws of tissue get in addition to their parameters, stored behind them.
 struct TissueSettings {
   static constexpr int most_terms = 6;
   double volume = 0;                             ///< place in volumes()
-  double axis[3] = {2 / 3., 2 / 3., 1 / 3.};     ///< of fibres: a unit vector
-  double sheet[3] = {-2 / 3., 1 / 3., 2 / 3.};   ///< orthogonal to it
-  double coefficient[most_terms] = {600, 1000};  ///< of Ogden's terms [Pa]; 0 where there is none
-  double exponent[most_terms] = {4, -2};         ///< alpha
+  double axis[3] = {2 / 3., 2 / 3., 1 / 3.};     ///< unit vector of fibres
+  double sheet[3] = {-2 / 3., 1 / 3., 2 / 3.};   ///< unit vector of their sheet, orthogonal to axis
+  double coefficient[most_terms] = {600, 1000};  ///< c of Ogden's terms [Pa]; 0: none
+  double exponent[most_terms] = {4, -2};         ///< alpha of Ogden's terms
 };
 
 /// Lame's constants [Pa]: lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)).

@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// W = c10 x + c01 y + c20 x^2 + c11 x y + c02 y^2 with x = I1 - 3, y = I2 - 3 (Rivlin & Saunders
-/// 1951, to second order).
+/// Polynomial law of second order (Rivlin & Saunders 1951): W = c10 x + c01 y + c20 x^2 + c11 x y +
+/// c02 y^2 with x = I1 - 3, y = I2 - 3.
 struct Polynomial : InvariantLaw<Polynomial> {
   static constexpr const char* name = "polynomial";
   static constexpr const char* summary =

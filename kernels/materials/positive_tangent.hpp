@@ -5,14 +5,14 @@
 
 namespace plica {
 
-/// A symmetric 9x9 matrix of a pack of elements: dP/dF in the order of F's entries, row by row.
+/// Symmetric 9x9 matrix of a pack of elements: dP/dF in the order of F's entries, row by row.
 template <class T>
 struct Mat9 {
   T a[9][9];
 };
 
-/// Whether A + shift I is positive definite in every lane: Cholesky's method meets positive pivots
-/// only.
+/// Returns true where A + shift I is positive definite in every lane: Cholesky's method meets
+/// positive pivots only.
 template <class T>
 KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) {
   T L[9][9];
@@ -30,8 +30,8 @@ KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) 
   return true;
 }
 
-/// Drops what belongs to negative eigenvalues: A = V diag V^T, then A = the sum of max(diag, 0) v
-/// v^T.
+/// Drops the parts of A that belong to negative eigenvalues: with A = V diag V^T, A becomes the sum
+/// of max(diag, 0) v v^T.
 template <class T>
 KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
   Mat9<T> V;
@@ -46,9 +46,9 @@ KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
     }
 }
 
-/// A material's dP/dF projected to positive semi-definite, per element (Teran, Sifakis, Irving &
-/// Fedkiw 2005), by numbers: it fits any material. Packs of elements that are positive
-/// semi-definite to rounding keep it as it is.
+/// Projection of a material's dP/dF to positive semi-definite, per element (Teran, Sifakis, Irving
+/// & Fedkiw 2005). It is computed numerically and so fits any material. Packs of elements that are
+/// positive semi-definite to rounding keep their dP/dF as it is.
 template <class Material>
 struct PositiveTangent {
   template <class T>

@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2; P = F S, S = 2 mu E +
-/// lambda tr(E) I. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 6.28. Softens
-/// in compression and has no barrier against inversion.
+/// St. Venant-Kirchhoff law: Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2.
+/// P = F S, S = 2 mu E + lambda tr(E) I. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd
+/// ed., eq. 6.28. It softens in compression and has no barrier against inversion.
 struct StVenantKirchhoff : TwoConstants {
   static constexpr const char* name = "st_venant_kirchhoff";
   static constexpr const char* summary =
@@ -48,10 +48,10 @@ struct StVenantKirchhoff : TwoConstants {
       return dF * S + F * second_stress(T(0.5f) * (G + transpose(G)), c);
     }
     struct Corner {
-      Vec3<T> g, f, s;  // with F and S
+      Vec3<T> g, f, s;  // f = F g, s = S g
     };
     KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const { return {g, F * g, S * g}; }
-    /// (p.S q) I + lambda (F p)(F q)^T + mu (F q)(F p)^T + mu (p.q) F F^T
+    /// Returns (p.S q) I + lambda (F p)(F q)^T + mu (F q)(F p)^T + mu (p.q) F F^T.
     KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
       Mat3<T> K = Mat3<T>::diagonal(dot(p.g, q.s));
       const T w = c.mu * dot(p.g, q.g);

@@ -13,18 +13,18 @@
 
 namespace plica {
 
-/// The laws that share the kernels of TissueLaws. One more: its file above, its name here.
+/// Laws that share the kernels of TissueLaws. To add one, include its file and name it here.
 using IsochoricLaws = TypeList<MooneyRivlin, Polynomial, Ogden, VerondaWestmann, ArrudaBoyce, Gent,
                                TransverselyIsotropic, HolzapfelGasserOgden, Costa>;
 
-/// f(law{}) for the one at a place of the list.
+/// Calls f(law{}) for the law at a place of the list.
 template <class... Laws, class F>
 KOKKOS_INLINE_FUNCTION void with_law(TypeList<Laws...>, int place, const F& f) {
   (void)((place-- == 0 ? (f(Laws{}), true) : false) || ...);
 }
 
-/// Any of them: which one is a number among the constants, the same in all lanes. So their kernels
-/// are compiled once, and the laws once for all kernels.
+/// Law that stands for any of IsochoricLaws: a number among the constants, equal in all lanes, says
+/// which one. So the kernels are compiled once for all laws, and the laws once for all kernels.
 struct TissueLaws : Isochoric<TissueLaws> {
   template <class T>
   PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION T isochoric(const Mat3<T>& C,

@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// W = mu/2 (I1 - 3) + eta/2 (I4 - 1)^2, I4 = a.C a with the fibres' direction a. Taylor et al.,
-/// Medical Image Analysis 13, 2009.
+/// Neo-Hookean law with fibres of direction a: W = mu/2 (I1 - 3) + eta/2 (I4 - 1)^2, I4 = a.C a.
+/// Taylor et al., Medical Image Analysis 13, 2009.
 struct TransverselyIsotropic : Isochoric<TransverselyIsotropic> {
   static constexpr const char* name = "transversely_isotropic";
   static constexpr const char* summary =
@@ -19,7 +19,7 @@ struct TransverselyIsotropic : Isochoric<TransverselyIsotropic> {
                         "of transversely_isotropic: of the fibres",
                         2e3},
       parameter::bulk_modulus};
-  // (a.e a)^2 <= 2/3 |e|^2 of a deviator e
+  // The bound of mu follows from (a.e a)^2 <= 2/3 |e|^2 of a deviator e.
   static Constants<double> kernel_constants(const double* p) {
     return constants(p + parameters.size(), p[2], p[0] + 4 * p[1] / 3, {p[0], p[1]});
   }

@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// W = c1 (e^(c2 (I1 - 3)) - 1) - c1 c2/2 (I2 - 3). Veronda & Westmann, J. Biomechanics 3, 1970.
-/// With c2 >= 1/3 it is not negative.
+/// Law of Veronda & Westmann: W = c1 (e^(c2 (I1 - 3)) - 1) - c1 c2/2 (I2 - 3). J. Biomechanics 3,
+/// 1970. With c2 >= 1/3 W is not negative.
 struct VerondaWestmann : InvariantLaw<VerondaWestmann> {
   static constexpr const char* name = "veronda_westmann";
   static constexpr const char* summary = "skin and liver: stiffens exponentially with I1";

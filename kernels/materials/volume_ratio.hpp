@@ -5,12 +5,14 @@
 
 namespace plica {
 
-/// J = det F as laws with a barrier at J = 0 take it: ln J and J^(-2/3) with their derivatives,
-/// which below J0 = 0.1 go on, twice continuously differentiable and finite, with s = (J0 - J)/J0
-/// and h = s^2/(1 + s):
-///   ln J      ->  ln J0 - s - h/2                    (to second order their Taylor polynomials about J0, to first order far away:
-///   J^(-2/3)  ->  J0^(-2/3) (1 + 2/3 s + 5/9 h)      a pull that stays bounded, as Irving, Teran & Fedkiw 2004 have)
-/// In kernels: J_c = max(J, J0), s = (J_c - J)/J0, w = 1/(1 + s), so that above J0 s = 0 and w = 1.
+/// Ratio J = det F for laws with a barrier at J = 0: ln J and J^(-2/3) with their derivatives.
+/// Below J0 = 0.1 both are continued, twice continuously differentiable and finite, with s = (J0 -
+/// J)/J0 and h = s^2/(1 + s):
+///   ln J      ->  ln J0 - s - h/2
+///   J^(-2/3)  ->  J0^(-2/3) (1 + 2/3 s + 5/9 h)
+/// To second order these are their Taylor polynomials about J0. Far away they are of first order: a
+/// pull that stays bounded, as Irving, Teran & Fedkiw 2004 have. The kernels use J_c = max(J, J0),
+/// s = (J_c - J)/J0, w = 1/(1 + s), so that above J0 s = 0 and w = 1.
 template <class T>
 struct VolumeRatio {
   using Real = typename LaneOf<T>::type;
@@ -27,7 +29,7 @@ struct VolumeRatio {
     const T part = T(1) / (kept * (T(1) + s));
     r2 = r * r, inverse = (T(1) + s) * part, w = kept * part;
   }
-  /// R, for J^(-2/3); dR/dJ; d2R/dJ2.
+  /// Returns R, which stands for J^(-2/3); factor_slope() dR/dJ; factor_bend() d2R/dJ2.
   KOKKOS_INLINE_FUNCTION T factor() const {
     return r2 * (T(1) + s * (T(Real(2.0 / 3)) + T(Real(5.0 / 9)) * s * w));
   }
@@ -35,7 +37,7 @@ struct VolumeRatio {
     return r2 * inverse * (T(Real(5.0 / 9)) * w * w - T(Real(11.0 / 9)));
   }
   KOKKOS_INLINE_FUNCTION T factor_bend() const { return T(Real(10.0 / 9)) * r2 * square(); }
-  /// L, for ln J; dL/dJ; -d2L/dJ2.
+  /// Returns L, which stands for ln J; slope() dL/dJ; square() -d2L/dJ2.
   KOKKOS_INLINE_FUNCTION T log_ratio() const {
     return -log(inverse) - s * (T(1) + T(0.5f) * s * w);
   }
@@ -43,9 +45,10 @@ struct VolumeRatio {
   KOKKOS_INLINE_FUNCTION T square() const { return inverse * inverse * w * w * w; }
 };
 
-/// Psi + 6 mu (1 - I/I0)^3 where I = |F|^2 < I0 = 3 J0^(2/3), which J < J0 follows from (I >= 3
-/// |J|^(2/3)): without it F = 0 would be a dip that collapsed elements stay in (Smith, de Goes &
-/// Kim 2018 on degenerate states). Its stress is -mu stress() F.
+/// Term 6 mu (1 - I/I0)^3 that is added to Psi where I = |F|^2 < I0 = 3 J0^(2/3). There J < J0 too,
+/// since I >= 3 |J|^(2/3). Without the term F = 0 would be a local minimum in which collapsed
+/// elements stay (Smith, de Goes & Kim 2018 on degenerate states). The stress of the term is -mu
+/// stress() F.
 template <class T>
 struct CrushedTerm {
   using Real = typename LaneOf<T>::type;
@@ -56,7 +59,7 @@ struct CrushedTerm {
       : close(max(T(1) - T(Real(1 / smallest)) * I, T(0))) {}
   KOKKOS_INLINE_FUNCTION T energy() const { return T(6) * close * close * close; }
   KOKKOS_INLINE_FUNCTION T stress() const { return T(Real(bump)) * close * close; }
-  /// of F:dF
+  /// Returns minus the derivative of stress() by F:dF.
   KOKKOS_INLINE_FUNCTION T stiffness() const { return T(Real(4 * bump / smallest)) * close; }
 };
 

@@ -16,7 +16,7 @@ struct MotionEnergies {
   State<B> state;
   Vec3<Real> gravity;
   Scalars<B> inverse_edge;  ///< [vertices] 1/m
-  Vec3<double> drift;       ///< of the whole body [m/s]
+  Vec3<double> drift;       ///< velocity of the whole body [m/s]
 
   KOKKOS_INLINE_FUNCTION MotionSums operator()(int a) const {
     const double m = static_cast<double>(mass(a)), per_edge = static_cast<double>(inverse_edge(a));
@@ -33,7 +33,7 @@ struct MotionEnergies {
   }
 };
 
-/// The x component of a field of the patches' vertices, for sums over it.
+/// Component x of a field of the patches' vertices, for sums over it.
 template <class B>
 struct FirstComponent {
   Vectors<B> field;

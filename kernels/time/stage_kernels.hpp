@@ -2,11 +2,11 @@
 #pragma once
 #include <plica/kernels/vectors.hpp>
 
-// What the stages of the implicit integrators start from, (u~, v~) of ImplicitWeights, h the step
-// [s]. The acceleration a is (f - c m v)/m, 0 where motion is given.
+// Start values (u~, v~) of the stages of the implicit integrators, see ImplicitWeights; h is the
+// step [s]. The acceleration a is (f - c m v)/m, 0 where motion is given.
 namespace plica {
 
-/// a
+/// Computes the accelerations a.
 template <class B>
 struct Accelerations {
   VertexModel<B> model;
@@ -18,7 +18,7 @@ struct Accelerations {
   }
 };
 
-/// u~ = u + h1 v + h2 a, v~ = v + h3 a
+/// Computes u~ = u + h1 v + h2 a, v~ = v + h3 a.
 template <class B>
 struct ExtrapolateState {
   using Real = typename B::Real;
@@ -34,8 +34,8 @@ struct ExtrapolateState {
   }
 };
 
-/// u~ and v~ of the second stage of sdirk2 from its first: a_1 = (v_1 - v_n)/(c h) - w f, f being
-/// contact's forces; `part` is c h, `rest` (1 - c) h.
+/// Computes u~ and v~ of the second stage of sdirk2 from its first. a_1 = (v_1 - v_n)/(c h) - w f,
+/// with f the contact forces and w the inverse mass; `part` is c h, `rest` (1 - c) h.
 template <class B>
 struct Sdirk2Base {
   using Real = typename B::Real;
@@ -54,13 +54,16 @@ struct Sdirk2Base {
   }
 };
 
-/// From the stage of the generalised alpha method to the step's end; a_n becomes a_{n+1}.
+/// Computes the end of the step from the stage of the generalised alpha method; a_n becomes
+/// a_{n+1}.
 template <class B>
 struct GeneralizedAlphaEnd {
   using Real = typename B::Real;
   State<B> start, base, state;
   Vectors<B> a;
-  Real h, cv, mass, beta, gamma;  ///< of v = base + cv (mass a_n + (1 - mass) a_{n+1})
+  /// Step [s]; cv and mass of v = base + cv (mass a_n + (1 - mass) a_{n+1}); beta and gamma of the
+  /// method
+  Real h, cv, mass, beta, gamma;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     for (int k = 0; k < 3; ++k) {
       const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - mass * a0) / (1 - mass);
@@ -72,12 +75,12 @@ struct GeneralizedAlphaEnd {
   }
 };
 
-// Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is what the stage
-// starts from; for vertices whose motion is given it is where they end. r = a/b, c the mass
-// damping. Balance in newtons, as a function of u alone:
+// Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is the start of the
+// stage; for vertices whose motion is given it is their end. r = a/b, c the mass damping. Balance
+// in newtons, as a function of u alone:
 //   R(u) = M (u - u~)/a + c M v - f(u, v),   v = v~ + (u - u~)/r
 
-/// What is known of a stage at a vertex.
+/// Data of a stage at a vertex.
 template <class B>
 struct StageAt {
   using Real = typename B::Real;
@@ -87,17 +90,17 @@ struct StageAt {
 
   KOKKOS_INLINE_FUNCTION bool is_free(int i) const { return model.inverse_mass(i) > 0; }
   KOKKOS_INLINE_FUNCTION Real ratio() const { return a / b; }
-  /// Displacement that goes with a velocity.
+  /// Returns the displacement that goes with a velocity.
   KOKKOS_INLINE_FUNCTION Real displacement(int i, int k, Real v) const {
     return is_free(i) ? base.u(i, k) + ratio() * (v - base.v(i, k)) : base.u(i, k);
   }
-  /// Velocity that goes with a displacement.
+  /// Returns the velocity that goes with a displacement.
   KOKKOS_INLINE_FUNCTION Real velocity(int i, int k, Real u) const {
     return is_free(i) ? base.v(i, k) + (u - base.u(i, k)) / ratio() : base.v(i, k);
   }
 };
 
-/// How far the stage's displacement lies from where the forces were linearised: at the step's
+/// Computes how far the stage's displacement is from where the forces were linearised, the step's
 /// start.
 template <class B>
 struct StageGap {
@@ -109,15 +112,16 @@ struct StageGap {
   }
 };
 
-/// r = M (v~ - v) + b (f - c M v - K gap): the system's right side for a change of v. K gap is
-/// minus the sum of the copies in `partial`, or what r holds of A gap = ((1 + b c) M + a K) gap.
+/// Computes r = M (v~ - v) + b (f - c M v - K gap), the system's right side for a change of v. K
+/// gap is minus the sum of the copies in `partial`, or it follows from A gap = ((1 + b c) M + a K)
+/// gap in r.
 template <class B>
 struct StageRightSide {
   using Real = typename B::Real;
   StageAt<B> stage;
   Vectors<B> f, partial, r;
   Vectors<B> gap;   ///< empty: there is none
-  bool by_product;  ///< r holds A gap
+  bool by_product;  ///< true where r contains A gap
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real m = stage.model.mass(i), c = stage.model.damping(i);
@@ -134,7 +138,7 @@ struct StageRightSide {
   }
 };
 
-/// v += dv and the displacement that goes with it; what is left of dv is the change of
+/// Adds dv to v, and changes the displacement with it. dv is replaced by the change of
 /// displacement.
 template <class B>
 struct StageUpdate {
@@ -152,7 +156,7 @@ struct StageUpdate {
   }
 };
 
-/// Goes back on a change of displacement: u -= part * change, for vertices that are free to.
+/// Takes back a change of displacement: u -= part * change, for free vertices.
 template <class B>
 struct StageRetreat {
   using Real = typename B::Real;
@@ -169,16 +173,22 @@ struct StageRetreat {
   }
 };
 
-/// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u +
-/// elastic and contact energy, grad Phi = R but for forces that have none: its vertex terms [J];
-/// |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J]; the squares of what accelerates the
-/// body and of what does not depend on its state [N^2]; of the masses [kg^2].
+/// Sums of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead
+/// u + elastic and contact energy. grad Phi = R, except for forces that have no potential. In
+/// order:
+///   0  the vertex terms of Phi [J]
+///   1  |R|^2 [N^2]
+///   2  R.change [J]
+///   3  the inertia of Phi alone, for scale [J]
+///   4  the square of the force that accelerates the body [N^2]
+///   5  the square of the forces that do not depend on its state [N^2]
+///   6  the square of the masses [kg^2]
 template <class B>
 struct StagePotential {
   using Real = typename B::Real;
   StageAt<B> stage;
   Vectors<B> f, dead, change;
-  Real back;  ///< part of `change` by which the state is ahead of what is asked for
+  Real back;  ///< part of `change` by which the state is ahead of the state to evaluate
 
   KOKKOS_INLINE_FUNCTION Sums<7> operator()(int i) const {
     Sums<7> sums;
@@ -205,7 +215,7 @@ struct StagePotential {
   }
 };
 
-/// [J]
+/// Kinetic energy of a vertex [J].
 template <class B>
 struct KineticEnergy {
   Scalars<B> mass;
@@ -216,7 +226,7 @@ struct KineticEnergy {
   }
 };
 
-/// How much less than 1 a volume ratio is.
+/// Amount by which a volume ratio is below 1; 0 above.
 template <class B>
 struct LackOfVolume {
   Scalars<B> J;

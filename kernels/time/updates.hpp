@@ -3,14 +3,14 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a =
-// f/m (0 where the motion is given: prescribe() replaces what they make of those). Undamped, each
+// Vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a =
+// f/m. Where the motion is given, a is 0 and prescribe() replaces the result. Undamped, each update
 // moves 12 s bytes in and 6 s out per vertex, s = sizeof(Real).
 namespace plica {
 
-/// v += h a, damped implicitly: v = (v + h a)/(1 + h c); then u += h v. Second-order in the
-/// velocity's staggered sense and symplectic for c = 0 (Hairer, Lubich & Wanner, Geometric
-/// Numerical Integration, I.1.2).
+/// Symplectic Euler: v += h a, damped implicitly, v = (v + h a)/(1 + h c); then u += h v. It is
+/// second-order in the velocity's staggered sense and symplectic for c = 0 (Hairer, Lubich &
+/// Wanner, Geometric Numerical Integration, I.1.2).
 template <class B>
 struct SymplecticEulerUpdate {
   static constexpr const char* label = "plica::symplectic_euler";
@@ -29,7 +29,7 @@ struct SymplecticEulerUpdate {
   }
 };
 
-/// v += h (a - c v), h half a step; then u += 2 h v.
+/// First half of a central-difference step: v += h (a - c v), h half a step; then u += 2 h v.
 template <class B>
 struct HalfKickAndDrift {
   using Real = typename B::Real;
@@ -47,7 +47,7 @@ struct HalfKickAndDrift {
   }
 };
 
-/// v = (v + h a)/(1 + h c), h half a step.
+/// Second half of a central-difference step: v = (v + h a)/(1 + h c), h half a step.
 template <class B>
 struct HalfKick {
   using Real = typename B::Real;
@@ -80,9 +80,9 @@ struct ForwardEulerUpdate {
   }
 };
 
-/// A stage of an explicit Runge-Kutta method in displacement and velocity: with k_u = v_s and k_v =
-/// a(u_s, v_s) - c v_s of the stage state s, adds weight * h * k to the sum and sets the next stage
-/// state to start + ahead * h * k.
+/// Stage of an explicit Runge-Kutta method in displacement and velocity. With k_u = v_s and k_v =
+/// a(u_s, v_s) - c v_s of the stage state s, it adds weight * h * k to the sum. It sets the next
+/// stage state to start + ahead * h * k.
 template <class B>
 struct RungeKuttaStage {
   using Real = typename B::Real;

@@ -4,16 +4,16 @@
 
 namespace plica {
 
-/// What a level hands to its neighbour, of one field (displacements or velocities) at one target
-/// vertex.
+/// Values that a level hands to its neighbour, of one field at one target vertex. A field is
+/// displacements or velocities.
 template <class Real>
 struct Mapped {
   Vec3<Real> state;      ///< sum of weight * the source's values
   Vec3<Real> variation;  ///< the target's base + sum of weight * the source's change
 };
 
-/// The three ways to take it; both fields of a vertex switch together. Pure functions of the
-/// displacements.
+/// Rule that takes the state. Like all three rules, it is a pure function of the displacements;
+/// both fields of a vertex switch together.
 struct MapState {
   static constexpr bool needs_variation = false, needs_state = true;
   template <class Real>
@@ -21,6 +21,7 @@ struct MapState {
     return true;
   }
 };
+/// Rule that takes the variation.
 struct MapVariation {
   static constexpr bool needs_variation = true, needs_state = false;
   template <class Real>
@@ -28,8 +29,9 @@ struct MapVariation {
     return false;
   }
 };
-/// State where the levels have drifted apart by more than `limit` (epsilon * local edge length),
-/// variation elsewhere. The paper leaves the criterion to its reference [6]; this one is ours.
+/// Rule that takes the state where the levels have drifted apart by more than `limit` (epsilon *
+/// local edge length), the variation elsewhere. The paper leaves the criterion to its reference
+/// [6]; this criterion is our own.
 struct MapSwitched {
   static constexpr bool needs_variation = true, needs_state = true;
   template <class Real>
@@ -39,8 +41,9 @@ struct MapSwitched {
   }
 };
 
-/// One row per target vertex: to = W from (state), or base + W (from - from_start) (variation).
-/// `to` and `base` may be the same. Per row 16 + 4 s bytes, and 6 s in and 6 s out per field set.
+/// Maps the fields of one target vertex per row: to = W from (state), or base + W (from -
+/// from_start) (variation). `to` and `base` may be equal. Per row 16 + 4 s bytes, and 6 s in and 6
+/// s out per field set.
 template <class B, class Rule>
 struct MapFields {
   using Real = typename B::Real;
@@ -77,17 +80,17 @@ void map_fields(const typename B::Exec& exec, const char* label, const Transfer<
                      MapFields<B, Rule>{transfer, from, from_start, base, to, limit});
 }
 
-// The adjoint restriction of the corrected cycles. Per entry 4 + s bytes of the row and 6 s, or 3
-// s, of the finer vertex.
+// Adjoint restriction of the corrected cycles. Per entry 4 + s bytes of the row and 6 s, or 3 s, of
+// the finer vertex.
 
-/// A coarse vertex's state = the average by mass of the finer ones in its elements. Given motions
-/// stay.
+/// Sets a coarse vertex's state to the average by mass of the finer vertices in its elements. Given
+/// motions stay.
 template <class B>
 struct RestrictState {
   using Real = typename B::Real;
   Restriction<B> restriction;
   State<B> fine, coarse;
-  Scalars<B> inverse_mass;  ///< of the coarse level
+  Scalars<B> inverse_mass;  ///< inverse masses of the coarse level
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(inverse_mass(a) > 0)) return;
@@ -102,8 +105,9 @@ struct RestrictState {
   }
 };
 
-/// tau = P^T f_fine - f: what the coarse level's own force f lacks to the finer level's (its own
-/// correction included), of vertices that forces move (Brandt's full approximation scheme).
+/// Computes tau = P^T f_fine - f of vertices that forces move: the difference from the coarse
+/// level's own force f to that of the finer level. The finer level's force includes its own
+/// correction. Brandt's full approximation scheme.
 template <class B>
 struct DefectCorrection {
   using Real = typename B::Real;
@@ -124,13 +128,13 @@ struct DefectCorrection {
   }
 };
 
-// A sparse matrix of numbers times vectors. Per entry 4 bytes, those of a number, and 3 s of the
+// Sparse matrix of numbers times vectors. Per entry 4 bytes, those of a number, and 3 s of the
 // vector it points at, which a cache holds; 6 flops.
 
-/// Row `row` of A x, x of three numbers each or four. A CPU takes four entries at a time, and
-/// vectors as four numbers, of which the fourth, the next vector's first, is not used. So the row's
-/// last entry, which may point at the last vector, is taken by itself, and a single vector number
-/// by number.
+/// Returns row `row` of A x, with three or four numbers for each vector of x. A CPU takes four
+/// entries at a time, and vectors as four numbers. The fourth, the next vector's first, is not
+/// used. So the row's last entry, which may point at the last vector, is taken by itself, and a
+/// single vector number by number.
 template <class B, class Value, class Field>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Value>& A, int row,
                                                           const Field& x) {
@@ -150,7 +154,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
       to += *reinterpret_cast<const Four*>(vector(entry)) * factor;
     };
     const Value* const value = A.value.data();
-    // so that an addition need not wait for the last one; an array goes to memory
+    // four sums, so that an addition need not wait for the last one; an array would go to memory
     Four a = {}, b = {}, c = {}, d = {};
     for (; s + 4 < last; s += 4) {
       const Four number =
@@ -175,7 +179,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
   return y;
 }
 
-/// y = A x
+/// Computes y = A x.
 template <class B, class Value = typename B::Real>
 struct MultiplyRows {
   SparseRows<B, Value> A;

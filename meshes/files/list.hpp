@@ -6,27 +6,28 @@
 
 namespace plica {
 
-// The formats, each in a source file of its own (MSH in three).
+// Mesh formats, each in a source file of its own (MSH in three).
 
-/// Takes the elements of a Gmsh file (its reference manual, "MSH file format"): MSH 1, 2.0 to 2.2
-/// and 4.1, the last two text or binary in either order of bytes. What all formats make of elements
-/// is in add_element().
+/// Reads the elements of a Gmsh file (its reference manual, "MSH file format"): MSH 1, 2.0 to 2.2
+/// and 4.1. Versions 2 and 4.1 may be text, or binary in either byte order. The treatment of
+/// elements is in add_element(), for all formats.
 ///
-/// Physical groups of volumes become regions, in the order of their tags; a nameless one is
-/// "physical_TAG", and so is what belongs to none (TAG 0), unless nothing belongs to any: then
-/// there is one nameless region. Physical groups of surfaces, curves and points become vertex sets;
-/// two with the same name are one set. Coordinates are taken as metres. Parametric coordinates
-/// (4.1) are left out; partitions count for nothing.
+/// Physical groups of volumes become regions, in the order of their tags. A nameless group is
+/// "physical_TAG"; elements of no group have TAG 0. If no element belongs to a group, there is one
+/// nameless region. Physical groups of surfaces, curves and points become vertex sets; two with one
+/// name are one set. Coordinates are read as metres. Parametric coordinates (4.1) and partitions
+/// are left out.
 ///
-/// Strict: anything malformed, cut short, of another version or of elements that we cannot take is
-/// an InputError with file, line or byte, the value and what was expected; but one bad face in a
-/// hundred of a surface is left out and counted. Sections Gmsh adds for other uses ($Periodic,
-/// $NodeData, ...) are skipped.
+/// The parser is strict. It throws an InputError for anything malformed or cut short, another
+/// version, and elements that are not supported. The error has the file, the line or byte, the
+/// value and what was expected. In surfaces up to one bad face in a hundred is left out and
+/// counted. Vectors with three components in $NodeData and $ElementData are read; other sections
+/// ($Periodic, ...) are skipped.
 RawMesh parse_msh(const MemoryFile& file, MeshReport& report);
 
-/// Gmsh MSH files, text and binary. Regions become physical groups of volumes and the groups of
-/// lower dimension stay what they are; other vertex sets become physical groups of points. Tags are
-/// those of `groups`, else from 1. What parse_msh() makes of them is the same mesh, but for sets
+/// Writes Gmsh MSH files, text or binary. Regions become physical groups of volumes. Groups of
+/// lower dimension keep their elements; other vertex sets become physical groups of points. Tags
+/// are those of `groups`, else from 1. parse_msh() reads the mesh unchanged, except for sets
 /// without a vertex.
 WrittenMesh write_msh22(const std::filesystem::path& path, const TetMesh& mesh,
                         const MeshGroups& groups);
@@ -37,26 +38,26 @@ WrittenMesh write_msh22_binary(const std::filesystem::path& path, const TetMesh&
 WrittenMesh write_msh41_binary(const std::filesystem::path& path, const TetMesh& mesh,
                                const MeshGroups& groups);
 
-/// Takes the cells of an unstructured grid, or of polygonal data, of VTK's legacy format ("VTK file
-/// formats" in its documentation), versions 1.0 to 5.1, text or binary.
+/// Reads the cells of an unstructured grid, or of polygonal data, in VTK's legacy format. Versions
+/// are 1.0 to 5.1, text or binary ("VTK file formats" in its documentation).
 ///
-/// Regions are told by the cells' array of integers named "region", or else by the first one with
-/// an integer per cell. Points and cells have the numbers they have in the file, from 0.
-/// Coordinates are taken as metres.
+/// Regions are given by the cells' integer array "region", or else by the first array with one
+/// integer per cell. Points and cells have the numbers they have in the file, from 0. Coordinates
+/// are read as metres.
 ///
-/// Strict, as parse_msh(). The format has no end mark: a file that is cut between two arrays looks
-/// whole.
+/// The parser is as strict as parse_msh(). The format has no end mark: a file that is cut between
+/// two arrays looks complete.
 RawMesh parse_vtk(const MemoryFile& file, MeshReport& report);
 
-/// Takes the cells of an unstructured grid, or of polygonal data, of VTK's XML format ("VTK XML
-/// file formats" in its documentation) in one piece: arrays as text, in base64, or appended, raw or
-/// in base64; in either order of bytes; compressed by zlib or LZ4, or not.
+/// Reads the cells of an unstructured grid, or of polygonal data, in VTK's XML format. The grid is
+/// in one piece ("VTK XML file formats" in its documentation). Arrays are text, base64, or
+/// appended, raw or in base64. They are in either byte order, and may be compressed by zlib or LZ4.
 ///
-/// Regions and numbers are as for parse_vtk(). Strict, as parse_msh().
+/// Regions and numbers are those of parse_vtk(). The parser is as strict as parse_msh().
 RawMesh parse_vtu(const MemoryFile& file, MeshReport& report);
 
-/// VTK's legacy format 3.0, text and binary, and its XML format with raw appended arrays. Regions
-/// are numbers in the cells' array "region"; neither has vertex sets.
+/// Writes VTK's legacy format 3.0, text or binary, or its XML format with raw appended arrays.
+/// Regions are numbers in the cells' array "region". Neither format has vertex sets.
 WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh,
                       const MeshGroups& groups);
 WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh,
@@ -64,61 +65,63 @@ WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& m
 WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
                       const MeshGroups& groups);
 
-/// Takes the elements of a Medit file in text (Frey, MEDIT: an interactive mesh visualization
-/// software, INRIA RT-0253): its references number regions, "reference_3", and groups. Coordinates
-/// are taken as metres. Strict, as parse_msh().
+/// Reads the elements of a Medit file in text (Frey, MEDIT: an interactive mesh visualization
+/// software, INRIA RT-0253). Its references number regions, named like "reference_3", and groups.
+/// Coordinates are read as metres. The parser is as strict as parse_msh().
 RawMesh parse_medit(const MemoryFile& file, MeshReport& report);
 
-/// Medit in text, with regions and groups as references; names are left out.
+/// Writes Medit in text, with regions and groups as references; names are left out.
 WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh,
                         const MeshGroups& groups);
 
-/// Takes the tetrahedra of a pair of files by TetGen (its manual, "File formats"): NAME.node and
+/// Reads the tetrahedra of a pair of files by TetGen (its manual, "File formats"): NAME.node and
 /// NAME.ele, numbered from 0 or 1.
 ///
-/// Region 3 is what has 3 as its first attribute, and named "attribute_3"; where all are 0 or there
-/// is none, there is one nameless region. Vertices with the boundary marker 2 are the set
-/// "marker_2"; 0 marks none. Coordinates are taken as metres.
+/// Tetrahedra with the first attribute 3 are the region "attribute_3". Where all attributes are 0,
+/// or there is none, there is one nameless region. Vertices with the boundary marker 2 are the set
+/// "marker_2"; 0 marks none. Coordinates are read as metres.
 ///
-/// Strict, as parse_msh(). Neither file has an end mark, but a comment: their first line tells how
-/// long they are.
+/// The parser is as strict as parse_msh(). The first line of each file gives its length; the end of
+/// a file may be marked by a comment only.
 RawMesh parse_tetgen(const MemoryFile& elements, const MemoryFile& nodes, MeshReport& report);
 
-/// The same with one of the two; the other one lies beside it.
+/// Reads a pair of TetGen files when one of them is given; the other one is loaded from its folder.
 RawMesh parse_tetgen(const MemoryFile& file, MeshReport& report);
 
-/// NAME.node and NAME.ele, numbered from 1. Regions are the attribute of tetrahedra; vertex sets
-/// are boundary markers, of which a vertex has one at most.
+/// Writes NAME.node and NAME.ele of TetGen, numbered from 1. Regions are the attribute of
+/// tetrahedra. Vertex sets are boundary markers, of which a vertex has one at most.
 WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh,
                          const MeshGroups& groups);
 
-/// Takes the vertices and faces of a Wavefront OBJ file, numbered from 1 or backwards from the last
-/// vertex with minus signs. Faces with more than three corners are cut into triangles from one of
-/// their corners, which must not turn any of these over. Textures, normals, groups, materials,
-/// lines and points are left out; free-form geometry is refused. Coordinates are taken as metres.
+/// Reads the vertices and faces of a Wavefront OBJ file. Vertices are numbered from 1, or backwards
+/// from the last vertex with minus signs. Faces with more than three corners are cut into triangles
+/// from one of their corners, so that all triangles look to one side. Textures, normals, groups,
+/// materials, lines and points are left out; free-form geometry is refused. Coordinates are read as
+/// metres.
 ///
-/// Strict, as parse_msh(). The format has no end mark: a file that is cut between two faces looks
-/// whole.
+/// The parser is as strict as parse_msh(). The format has no end mark: a file that is cut between
+/// two faces looks complete.
 RawMesh parse_obj(const MemoryFile& file, MeshReport& report);
 
-/// Takes the triangles of an STL file, text or binary (it is binary when its size fits the
-/// number of triangles: the title of a binary file may begin like text). Corners at exactly the
-/// same place are one vertex. Normals are left out: the order of the corners says the same. Several
-/// solids are one surface. Coordinates are taken as metres.
+/// Reads the triangles of an STL file, text or binary. A file is binary if its size fits the number
+/// of triangles, as the title of a binary file may begin like text. Corners with exactly equal
+/// coordinates are one vertex. Normals are left out: the order of the corners defines them. Several
+/// solids are one surface. Coordinates are read as metres.
 ///
-/// Strict, as parse_msh().
+/// The parser is as strict as parse_msh().
 RawMesh parse_stl(const MemoryFile& file, MeshReport& report);
 
-/// Takes vertices and faces of a PLY file (Turk, The PLY polygon file format, 1994), text or
-/// binary; other elements and properties are left out. Coordinates are taken as metres. Strict, as
-/// parse_msh().
+/// Reads vertices and faces of a PLY file (Turk, The PLY polygon file format, 1994), text or
+/// binary; other elements and properties are left out. Coordinates are read as metres. The parser
+/// is as strict as parse_msh().
 RawMesh parse_ply(const MemoryFile& file, MeshReport& report);
 
-/// Takes vertices and faces of an OFF file of Geomview in text, OFF, COFF, NOFF and their like:
-/// colours and normals are left out. Coordinates are taken as metres. Strict, as parse_msh().
+/// Reads vertices and faces of an OFF file of Geomview in text. Variants such as COFF and NOFF are
+/// supported; colours, normals and textures are left out. Coordinates are read as metres. The
+/// parser is as strict as parse_msh().
 RawMesh parse_off(const MemoryFile& file, MeshReport& report);
 
-/// Wavefront OBJ, PLY in binary, OFF in text; and STL, text and binary: the binary one keeps seven
+/// Writes Wavefront OBJ, PLY in binary, OFF in text, or STL, text or binary. Binary STL keeps seven
 /// digits of the coordinates.
 WrittenMesh write_obj(const std::filesystem::path& path, const TriangleSurface& surface);
 WrittenMesh write_ply(const std::filesystem::path& path, const TriangleSurface& surface);
@@ -126,15 +129,15 @@ WrittenMesh write_off(const std::filesystem::path& path, const TriangleSurface& 
 WrittenMesh write_stl(const std::filesystem::path& path, const TriangleSurface& surface);
 WrittenMesh write_stl_binary(const std::filesystem::path& path, const TriangleSurface& surface);
 
-/// A format of files with meshes or surfaces.
+/// File format of meshes or surfaces that can be read.
 struct MeshFormat {
   const char* extension;    ///< lower case, without the dot
-  const char* description;  ///< for help texts
+  const char* description;  ///< text for help
   RawMesh (*parse)(const MemoryFile& file, MeshReport& report);
 };
 
-/// All that hold tetrahedra. A new format is one source file: its parser and writer are declared
-/// above, and get a line here.
+/// All formats that hold tetrahedra. A new format is one source file. Its parser and writer are
+/// declared in this header, and get a line in these lists.
 inline constexpr MeshFormat mesh_formats[] = {
     {"msh", "Gmsh MSH 1, 2 and 4.1, text and binary", parse_msh},
     {"mesh", "Medit, text", parse_medit},
@@ -144,7 +147,7 @@ inline constexpr MeshFormat mesh_formats[] = {
     {"node", "TetGen, with the .ele file beside it", parse_tetgen},
 };
 
-/// All that hold triangles.
+/// All formats that hold triangles.
 inline constexpr MeshFormat surface_formats[] = {
     {"obj", "Wavefront OBJ, its polygons", parse_obj},
     {"stl", "STL, text and binary", parse_stl},
@@ -157,11 +160,11 @@ inline constexpr MeshFormat surface_formats[] = {
     {"mesh", "Medit, its faces", parse_medit},
 };
 
-/// A format that meshes or surfaces are written in.
+/// File format of meshes or surfaces that can be written.
 template <class Mesh, class... Groups>
 struct Writer {
   const char* extension;
-  const char* name;  ///< to choose among those of an extension
+  const char* name;  ///< name to choose a format where an extension has several
   bool binary;
   const char* description;
   WrittenMesh (*write)(const std::filesystem::path& path, const Mesh& mesh,
@@ -170,7 +173,7 @@ struct Writer {
 using MeshWriter = Writer<TetMesh, MeshGroups>;
 using SurfaceWriter = Writer<TriangleSurface>;
 
-/// All of them; of one extension the first is written when nothing more is said.
+/// All formats that are written. Without a name, the first format of an extension is written.
 inline constexpr MeshWriter mesh_writers[] = {
     {"msh", "msh41", false, "Gmsh MSH 4.1, text", write_msh41},
     {"msh", "msh41", true, "Gmsh MSH 4.1, binary", write_msh41_binary},

@@ -11,7 +11,7 @@ namespace {
 
 constexpr NumberType integer = NumberType::int64, real = NumberType::float64;
 
-// Keywords with rows of vertices and a reference
+// Keyword of a section; each row has the vertices of an element and its reference
 struct Elements {
   const char* keyword;
   ElementKind kind;
@@ -50,7 +50,7 @@ class MeditParser {
   }
 
  private:
-  // A keyword at the head of a line; its numbers follow it on that line or the next ones
+  // Reads a section: a keyword at the start of a line, then numbers on that line or the next ones
   void section() {
     pending_ = false;
     const std::string keyword = lower_case(lines_.words().front());
@@ -108,7 +108,7 @@ class MeditParser {
     numbers_->end("the " + keyword);
   }
 
-  // Up to the next line that begins with a letter
+  // Skips a section, up to the next line that begins with a letter
   void skip(const std::string& keyword) {
     report_.skipped_sections.push_back(keyword.substr(0, 60));
     const auto is_keyword = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -120,9 +120,9 @@ class MeditParser {
   RawMesh raw_;
   std::optional<TextNumbers> numbers_;
   std::int64_t dimension_ = 0;
-  // pending: the current line is a keyword that is not read yet
+  // pending_: the current line has a keyword that has not been read yet
   bool ended_ = false, pending_ = false;
-  std::vector<std::int64_t> regions_;  // per tetrahedron
+  std::vector<std::int64_t> regions_;  // per tetrahedron its reference
   std::map<std::pair<int, std::int64_t>, RawGroup> groups_;
 };
 

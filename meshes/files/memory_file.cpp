@@ -14,7 +14,7 @@ namespace plica {
 
 namespace {
 
-// The end of a name that no message has room for
+// Returns a name for a message; a very long one is cut to its end
 std::string path_shown(const std::string& name) {
   constexpr std::size_t longest = 300;
   return name.size() > longest ? "..." + name.substr(name.size() - longest) : name;

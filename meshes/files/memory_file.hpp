@@ -10,36 +10,38 @@
 
 namespace plica {
 
-/// A file in memory.
+/// File in memory.
 struct MemoryFile {
-  std::string name;  ///< as errors show it; its extension tells the format
+  std::string name;  ///< file name in errors; its extension names the format
   std::string bytes;
 };
 
-/// Reads all of it; InputError with the system's reason when that cannot be, and for folders, pipes
-/// and devices.
+/// Reads a whole file. Throws an InputError with the system's reason if that fails, and for
+/// folders, pipes and devices.
 MemoryFile load_file(const std::filesystem::path& path);
 
-/// Where in a file something stands: on a line, or, where a file is binary, at a byte.
+/// Position in a file: a line, or a byte of a binary file.
 struct Place {
-  std::int64_t line = 0;   ///< from 1; 0: none
-  std::int64_t byte = -1;  ///< from 0; -1: none
+  std::int64_t line = 0;   ///< line, from 1; 0: none
+  std::int64_t byte = -1;  ///< byte, from 0; -1: none
 };
 
-/// "on line 3", "at byte 120", or nothing for no place
+/// Returns "on line 3", "at byte 120", or an empty text for no place.
 std::string to_text(const Place& place);
 
-/// InputError "FILE:LINE: MESSAGE", or "FILE: byte N: MESSAGE".
+/// Throws an InputError "FILE:LINE: MESSAGE", or "FILE: byte N: MESSAGE".
 [[noreturn]] void refuse(const std::string& file, const Place& place, const std::string& message);
 
-/// Input as an error shows it: in quotes, without control characters, cut when it is long.
+/// Returns input for an error message: in quotes, without control characters, cut if it is long.
 std::string shown(std::string_view input);
 
-/// The extension of a file without its dot, in lower case.
+/// Returns the extension of a file without its dot, in lower case.
 std::string extension_of(const std::filesystem::path& path);
 
-/// The format of a list that the extension of a file names; InputError with the choices when none
-/// does. Formats have an `extension`.
+/// Returns the format that the extension of a file names. Throws an InputError with the choices if
+/// there is none.
+/// @param formats  list of formats with a member `extension`
+/// @param kind     kind of file for the message
 template <typename Formats>
 const auto& format_of(const std::filesystem::path& path, const Formats& formats,
                       const std::string& kind) {
@@ -53,18 +55,18 @@ const auto& format_of(const std::filesystem::path& path, const Formats& formats,
   throw InputError(unknown_name(kind + " file extension", extension, choices), {path.string()});
 }
 
-/// A way in which VTK compresses blocks of arrays.
+/// Compression method of VTK for blocks of arrays.
 struct Compressor {
-  const char* name;           ///< as files have it
-  std::size_t largest_ratio;  ///< of what comes out to what goes in: more is a lie
-  /// The `size` bytes that a block holds; nothing when it does not.
+  const char* name;           ///< name in VTK's files
+  std::size_t largest_ratio;  ///< maximum possible ratio of decompressed to compressed size
+  /// Returns the decompressed block; nothing if it does not have `size` bytes or is broken.
   std::optional<std::string> (*decompress)(std::string_view block, std::size_t size);
 };
 
-/// The one of that name; null for none.
+/// Returns the compressor of that name; null for none.
 const Compressor* find_compressor(std::string_view name);
 
-/// Their names, "A and B".
+/// Returns the names of all compressors, as "A and B".
 std::string compressor_names();
 
 }  // namespace plica

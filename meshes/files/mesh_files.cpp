@@ -8,7 +8,7 @@
 namespace plica {
 
 TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report, Flaws flaws) {
-  format_of(path, mesh_formats, "mesh");  // a wrong extension is told before the file is looked for
+  format_of(path, mesh_formats, "mesh");  // reports a wrong extension before a missing file
   return read_mesh(load_file(path), report, flaws);
 }
 
@@ -21,7 +21,7 @@ TetMesh read_mesh(const MemoryFile& file, MeshReport* report, Flaws flaws) {
 }
 
 TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report) {
-  // a wrong extension is told before the file is looked for
+  // reports a wrong extension before a missing file
   format_of(path, surface_formats, "surface");
   return read_surface(load_file(path), report);
 }

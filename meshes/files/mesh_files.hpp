@@ -14,59 +14,59 @@ namespace plica {
 
 /// Reads a tetrahedral mesh in the format its extension names (see list.hpp), in any case of
 /// letters.
-/// @param path    of the file
-/// @param report  takes what was repaired and left out, when given
+/// @param path    path of the file
+/// @param report  if given, gets what was repaired and left out
 /// @param flaws   kept: a mesh for repair_mesh(), whose tetrahedra may have no volume
-/// @throw InputError for an unknown extension, whatever the parser of the format refuses, and what
-/// sound_mesh() does
+/// @throw InputError for an unknown extension, and as the parser of the format and sound_mesh() do
 TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
                   Flaws flaws = Flaws::refused);
 
-/// The same of a file in memory.
+/// Reads a tetrahedral mesh from a file in memory, in the format its extension names.
 TetMesh read_mesh(const MemoryFile& file, MeshReport* report = nullptr,
                   Flaws flaws = Flaws::refused);
 
 /// Reads the triangles of a surface in the format its extension names (see list.hpp), in any case
 /// of letters.
-/// @param path    of the file
-/// @param report  takes what was repaired and left out, and whether the surface is closed, when
-/// given
-/// @throw InputError for an unknown extension, whatever the parser of the format refuses, and what
-/// sound_surface() does
+/// @param path    path of the file
+/// @param report  if given, gets what was repaired and left out, and whether the surface is closed
+/// @throw InputError for an unknown extension, and as the parser of the format and sound_surface()
+/// do
 TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report = nullptr);
 
-/// The same of a file in memory.
+/// Reads the triangles of a surface from a file in memory, in the format its extension names.
 TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report = nullptr);
 
-/// A mesh from a file.
+/// Mesh that was read from a file.
 struct ReadMesh {
-  TetMesh mesh;       ///< sound
-  MeshReport report;  ///< what was done to it
+  TetMesh mesh;       ///< mesh that passed sound_mesh()
+  MeshReport report;  ///< report of what was repaired and left out
 };
-/// A surface from a file.
+/// Surface that was read from a file.
 struct ReadSurface {
-  TriangleSurface surface;  ///< sound
-  SurfaceReport report;     ///< what was done to it
+  TriangleSurface surface;  ///< surface that passed sound_surface()
+  SurfaceReport report;     ///< report of what was repaired and left out
 };
 
-/// Reads what a file holds: a mesh, or, where it has triangles and no tetrahedron, a surface.
+/// Reads a mesh, or a surface if the file has triangles and no tetrahedron.
 /// @throw InputError as read_mesh() and read_surface() do
 std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path);
 
-/// What a file of a mesh holds, in the format that its extension names; coordinates keep every bit
-/// where nothing else is said. TetGen's format is two files, whichever of them is named. Nothing is
-/// written to disk.
+/// Returns the bytes of a mesh file in the format that its extension names. Nothing is written to
+/// disk. Coordinates keep every bit unless a format says otherwise. TetGen's format is two files,
+/// for the path of either.
 /// @param path    names the format; the written files have its name
-/// @param mesh    what to write
-/// @param format  the name of a format of that extension (see list.hpp); empty: the first one
-/// @param binary  the binary form of it
-/// @param groups  how the mesh's file had its groups, or nothing
-/// @throw InputError for an unknown extension or format, and what the format can in no way hold
+/// @param mesh    mesh to write
+/// @param format  name of a format of that extension (see list.hpp); empty: the first one
+/// @param binary  true for the binary form of the format
+/// @param groups  groups as the mesh's file has them, or empty
+/// @throw InputError for an unknown extension or format, and for what the format cannot hold
 WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh,
                        const std::string& format = "", bool binary = false,
                        const MeshGroups& groups = {});
 
-/// The same of a surface.
+/// Returns the bytes of a surface file in the format that its extension names. Nothing is written
+/// to disk.
+/// @throw InputError for an unknown extension or format, and for what the format cannot hold
 WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
                           const std::string& format = "", bool binary = false);
 

@@ -185,8 +185,7 @@ std::int64_t read_dimension(Numbers& numbers) {
   return dimension;
 }
 
-// Blocks and what they hold: their number, that of all nodes or elements, the smallest and largest
-// tag
+// Head of a section of blocks: the number of blocks, and of nodes or elements in all of them
 struct Blocks {
   std::int64_t blocks = 0, total = 0;
 };
@@ -200,7 +199,7 @@ Blocks read_blocks(const std::string& what, std::int64_t fewest, Numbers& number
   return header;
 }
 
-// Of a block, after which `done` are read
+// Reads the number of nodes or elements of a block; `done` have been read before it
 std::int64_t read_size(const std::string& what, std::int64_t done, const Blocks& all,
                        Numbers& numbers) {
   const std::int64_t size = numbers.integer(size_type, "the number of " + what + " of a block");

@@ -11,7 +11,7 @@
 
 namespace plica {
 
-/// Of the MSH formats (Gmsh reference manual, "MSH file format").
+/// Kinds of elements of the MSH formats (Gmsh reference manual, "MSH file format").
 inline constexpr ElementKind msh_elements[] = {
     {15, "point", 0, 1, 1},
     {1, "line", 1, 2, 2},
@@ -40,22 +40,23 @@ inline constexpr ElementKind msh_elements[] = {
     {92, "third-order hexahedron", 3, 64, 8},
 };
 
-/// What the MSH formats have in common: nodes, elements, and groups of elements that may have a
-/// name.
+/// Builder of a RawMesh from the parts that all MSH formats have: nodes, elements, and groups of
+/// elements that may have a name.
 class MshGather {
  public:
   MshGather(std::string file, MeshReport& report) : report_(report) { raw_.file = std::move(file); }
 
-  /// A line of $PhysicalNames.
+  /// Adds the name of a group from a line of $PhysicalNames.
   void add_name(const TextLines& lines);
-  /// A node: three coordinates follow.
+  /// Adds a node; reads its three coordinates from `numbers`.
   void add_node(std::int64_t tag, Numbers& numbers, const Place& place);
-  /// An element of some physical groups, a tetrahedron of one at most (0: none): its nodes follow.
+  /// Adds an element; reads its nodes from `numbers`.
+  /// @param groups  physical groups (0: none); a volume uses the first one only
   void add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
                    NumberType node_type, Numbers& numbers, const Place& place);
-  /// Vectors of nodes or elements: `count` times tag, x, y, z follow.
+  /// Adds vectors of nodes or elements; reads `count` times tag, x, y, z from `numbers`.
   void add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers);
-  /// All of it; to be called once.
+  /// Returns the mesh and empties this; call it once.
   RawMesh take();
 
  private:
@@ -66,38 +67,43 @@ class MshGather {
   MeshReport& report_;
   std::map<Group, std::string> names_;
   std::map<std::string, Group> regions_;  // names of volumes, which are unique
-  std::vector<std::int64_t> nodes_;       // of an element
+  std::vector<std::int64_t> nodes_;       // nodes of the element that is being read
   std::vector<std::int64_t> tet_groups_;  // per tetrahedron its physical tag
-  std::map<Group, RawGroup> groups_;      // of lower dimension
+  std::map<Group, RawGroup> groups_;      // groups of points, lines and faces
 };
 
-/// A kind of element that we take, else an InputError; `who` has that type.
+/// Returns the kind of element of a type. Throws an InputError if it is not supported.
+/// @param who  names the element or block with that type
 const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who,
                                  const Numbers& numbers);
 
-/// A tag of a node or element: 1 or more.
+/// Reads the tag of a node or element, which is 1 or more.
 std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers);
 
-/// The tag of a physical group. A minus sign says that the element is turned round against the
-/// group, and is left out.
+/// Reads the tag of a physical group, and returns it without its sign. A minus sign means that the
+/// element has the opposite orientation of the group.
 std::int64_t physical_tag(Numbers& numbers);
 
-/// The nodes of MSH 1 and 2, the same in text and in binary: `count` times tag, x, y, z.
+/// Reads the nodes of MSH 1 and 2, from text or binary: `count` times tag, x, y, z.
 void msh2_nodes(std::int64_t count, Numbers& numbers, MshGather& gather);
-/// The elements of MSH 1: each with its type, physical and elementary group, and number of nodes.
+/// Reads the elements of MSH 1: each has its type, physical and elementary group, and number of
+/// nodes.
 void msh1_elements(std::int64_t count, Numbers& numbers, MshGather& gather);
-/// The elements of MSH 2: in text each with its type and number of tags, in binary in blocks of one
-/// type.
+/// Reads the elements of MSH 2. In text each has its type and number of tags; in binary they are in
+/// blocks of one type.
 void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather& gather);
 
-/// The sections of MSH 4.1, the same in text and in binary. Entities are parts of the geometry, or
-/// of one partition of it; blocks of elements lie in one entity, and so in its physical groups.
+/// Reader of the sections of MSH 4.1, text or binary. Entities are parts of the geometry, or of one
+/// partition of it. A block of elements belongs to one entity, and so to its physical groups.
 class Msh4Bodies {
  public:
+  /// Reads $Entities.
   void entities(Numbers& numbers) { read_entities(false, numbers); }
+  /// Reads $PartitionedEntities.
   void partitioned_entities(Numbers& numbers);
-  /// Returns how many, as "5 nodes"
+  /// Reads $Nodes; returns their number, as "5 nodes".
   std::string nodes(Numbers& numbers, MshGather& gather) const;
+  /// Reads $Elements; returns their number, as "5 elements".
   std::string elements(Numbers& numbers, MshGather& gather) const;
 
  private:

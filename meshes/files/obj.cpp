@@ -40,7 +40,7 @@ void ObjParser::line() {
                 "; supported are polygons: v and f");
 }
 
-// A weight may follow, or a colour
+// Reads a vertex; a weight may follow its coordinates, or a colour
 void ObjParser::vertex() {
   const std::size_t words = lines_.words().size();
   if (words != 4 && words != 5 && words != 7) lines_.expected("a vertex with three coordinates");
@@ -54,7 +54,8 @@ void ObjParser::vertex() {
   raw_.vertices.push_back(vertex);
 }
 
-// A vertex, and perhaps a texture and a normal: 3, 3/1, 3//2 or 3/1/2
+// Returns the vertex of a corner; a texture and a normal may follow it: 3, 3/1, 3//2 or 3/1/2.
+// Returns nothing for a bad corner, which is counted.
 std::optional<std::int64_t> ObjParser::corner(std::size_t word) {
   const std::string_view text = lines_.words()[word];
   const std::string_view number = text.substr(0, text.find('/'));

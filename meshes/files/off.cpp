@@ -6,8 +6,9 @@ namespace plica {
 
 namespace {
 
-// Colours, normals and textures that follow the coordinates of a vertex are left out, as is all
-// after the corners of a face
+// Returns whether a word is OFF with any prefixes ST, C and N in this order. They announce
+// textures, colours and normals after the coordinates of a vertex. These are left out, as is
+// everything after the corners of a face.
 bool is_heading(std::string_view word) {
   if (!word.ends_with("OFF")) return false;
   word.remove_suffix(3);
@@ -30,7 +31,7 @@ void read_face(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& ra
   if (!lines.next())
     lines.expected("face " + std::to_string(i + 1) + " of " + std::to_string(count));
   const Place place = lines.place();
-  // corners may go on on the next line, as some programs write them
+  // Corners may continue on the next line, as some programs write them
   TextNumbers numbers(lines, std::size_t{0});
   const std::int64_t corners =
       numbers.count(NumberType::int32, "the number of corners of a face", NumberType::int32, 1);
@@ -54,7 +55,7 @@ RawMesh parse_off(const MemoryFile& file, MeshReport& report) {
     lines.expected("OFF, the start of an OFF file");
   if (lines.words().size() > 1 && lines.words()[1] == "BINARY")
     lines.fail("binary OFF files are not supported");
-  std::size_t word = 1;  // the counts may follow on the same line
+  std::size_t word = 1;  // the counts may follow OFF on its line
   if (lines.words().size() == 1) word = 0, lines.next();
   TextNumbers rest(lines);
   const std::int64_t vertices =

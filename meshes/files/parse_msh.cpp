@@ -45,7 +45,7 @@ class MshParser {
   std::set<std::string> seen_;
 };
 
-// Version 1 has no heading
+// Reads the heading of the file; version 1 has none
 void MshParser::format() {
   if (!lines_.next() || (lines_.text() != "$MeshFormat" && lines_.text() != "$NOD"))
     lines_.expected("$MeshFormat, the start of a Gmsh file");
@@ -71,7 +71,7 @@ void MshParser::format() {
   end_of("MeshFormat");
 }
 
-// The integer 1 as the file writes it
+// Reads the integer 1, which tells the byte order of a binary file
 void MshParser::check_byte_order() {
   constexpr auto other =
       std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
@@ -118,8 +118,8 @@ void MshParser::section() {
   (this->*found->second)();
 }
 
-// Binary data may hold line feeds, but hardly the name of its section. Some writers end their data
-// without a line feed.
+// Skips a section that is not used. Binary data may hold line feeds, but hardly ever the end mark
+// of the section. Some writers end their data without a line feed.
 void MshParser::skip(const std::string& name) {
   report_.skipped_sections.push_back(name.substr(0, 60));
   const std::string end = (version_ == 1 ? "$END" : "$End") + name.substr(1);
@@ -129,7 +129,7 @@ void MshParser::skip(const std::string& name) {
   lines_.expected(shown(end));
 }
 
-// A count on a line of its own, as text in binary files, too
+// Reads a count on a line of its own, which is text in binary files, too
 std::int64_t MshParser::count_of(const std::string& kind, std::int64_t fewest) {
   if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of " + kind);
   const std::int64_t count = lines_.integer(0, "the number of " + kind);
@@ -188,7 +188,7 @@ void MshParser::elements() {
   end_of(version_ == 1 ? "ELM" : "Elements", what);
 }
 
-/// Lines of the heading of a section of data, behind a line that counts them.
+/// Returns the lines of a heading of a data section; the line before them counts them.
 std::vector<std::string> MshParser::data_heading(const std::string& kind) {
   if (!lines_.next() || lines_.words().size() != 1)
     lines_.expected("the number of " + kind + " tags");
@@ -204,7 +204,7 @@ std::vector<std::string> MshParser::data_heading(const std::string& kind) {
   return all;
 }
 
-// Those with three components have a use; the rest is left out, as unknown sections are
+// Reads a data section with three components and a name; others are skipped as unknown sections are
 void MshParser::data() {
   const std::string section(lines_.text());
   const std::vector<std::string> texts = data_heading("string"), reals = data_heading("real");

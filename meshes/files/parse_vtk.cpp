@@ -10,29 +10,28 @@ namespace plica {
 
 namespace {
 
-/// The type of numbers that a word of the line names, in any case of letters; else an InputError
-/// with the choices.
+/// Returns the type of numbers that a word of the line names, in any case of letters. Throws an
+/// InputError with the choices if there is none.
 NumberType legacy_vtk_type(std::size_t word, const TextLines& lines);
 
-/// Goes past a block of METADATA, which ends with a blank line.
+/// Skips a block of METADATA, which ends with a blank line.
 void skip_vtk_metadata(TextLines& lines);
 
-/// The arrays of points and cells in VTK's legacy format: those of cells go to the grid, the others
-/// are passed over.
+/// Reader of the arrays of points and cells in VTK's legacy format. They are passed to the grid.
 class LegacyArrays {
  public:
   explicit LegacyArrays(VtkGrid& grid) : grid_(grid) {}
 
-  /// binary data are big-endian on every machine
+  /// Form of the numbers; binary data are big-endian on every machine
   NumberForm form = {false, std::endian::big, true};
 
-  /// The following arrays are of points or cells, with so many tuples.
+  /// Begins the arrays of cells or points, with a number of tuples.
   void begin(std::int64_t tuples, bool of_cells) {
     tuples_ = tuples, of_cells_ = of_cells, begun_ = true;
   }
-  /// FIELD: arrays, each with a heading "name components tuples type".
+  /// Reads FIELD: arrays, each with a heading "name components tuples type".
   void field(TextLines& lines);
-  /// SCALARS and its like: false if the line is the heading of none.
+  /// Reads an array with a keyword such as SCALARS; returns false if the line is not its heading.
   bool attribute(const std::string& keyword, TextLines& lines);
 
  private:
@@ -58,10 +57,10 @@ constexpr TypeName type_names[] = {
     {"double", NumberType::float64},        {"signed_char", NumberType::int8},
 };
 
-// Arrays with a heading "KEYWORD name type", but for those that tell their components
+// Array with a heading "KEYWORD name type", or with its components in the heading
 struct Attribute {
   const char* keyword;
-  std::int64_t components;  // 0: a word of the heading
+  std::int64_t components;  // 0: given by the word components_word of the heading, else 1
   std::size_t type_word, components_word;
 };
 constexpr Attribute attributes[] = {
@@ -129,8 +128,8 @@ bool LegacyArrays::attribute(const std::string& keyword, TextLines& lines) {
   if (!begun_) return false;
   const std::size_t words = lines.words().size();
   const std::string name = words > 1 ? std::string(lines.words()[1]) : "";
-  // Colours are bytes in binary and fractions in text; a table of them stands apart from what it
-  // colours
+  // Colours are bytes in binary and real numbers in text. A table of colours has a section of its
+  // own.
   const NumberType colour = form.binary ? NumberType::uint8 : NumberType::float32;
   if (keyword == "color_scalars")
     return values(name, tuples_, read_components(2, lines), colour, lines), true;
@@ -186,7 +185,7 @@ class VtkParser {
   VtkGrid grid_;
   LegacyArrays arrays_{grid_};
   bool version5_ = false, polygonal_ = false;
-  std::vector<PlacedInteger> corners_, ends_;  // of the last section of cells
+  std::vector<PlacedInteger> corners_, ends_;  // points and ends of the last section of cells
   std::set<std::string> seen_;
 };
 
@@ -251,7 +250,7 @@ void VtkParser::cells() {
   grid_.connectivity = std::move(corners_), grid_.ends = std::move(ends_);
 }
 
-// Of polygonal data: one kind
+// Reads a section of polygonal data, with cells of one type
 void VtkParser::cells_of(int type) {
   if (!polygonal_) lines_.expected("CELLS or another keyword of UNSTRUCTURED_GRID");
   read_cells("a line like POLYGONS 2 10");
@@ -266,7 +265,7 @@ void VtkParser::read_cells(const char* line) {
   version5_ ? cells_of_5(count, size) : cells_before_5(count, size);
 }
 
-// Cell after cell the number of its points and these
+// Reads the cells of versions before 5: for each cell the number of its points, then the points
 void VtkParser::cells_before_5(std::int64_t count, std::int64_t size) {
   constexpr NumberType type = NumberType::int32;
   arrays_.form.after(lines_, [&](Numbers& numbers) {
@@ -309,7 +308,8 @@ std::vector<PlacedInteger> VtkParser::integers(const char* heading, std::int64_t
   });
 }
 
-// Where each cell starts, with the end of the last one, and the points of all
+// Reads the cells of version 5: the start of each cell and the end of the last one, then the points
+// of all cells
 void VtkParser::cells_of_5(std::int64_t offsets, std::int64_t size) {
   ends_ = integers("OFFSETS", offsets, "an offset");
   if (!ends_.empty()) {

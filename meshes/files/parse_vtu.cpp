@@ -45,7 +45,7 @@ class VtuParser {
   std::vector<XmlElement> cell_data_, point_data_;
 };
 
-// What cells there are besides those of <Cells>, each with a number in VTK
+// Section of cells in polygonal data, with the VTK type of the cells
 struct Section {
   const char *name, *count;
   int type;

@@ -26,7 +26,7 @@ constexpr PlyType ply_types[] = {
 struct Property {
   std::string name;
   NumberType type = NumberType::float32;
-  std::optional<NumberType> count;  // of a list
+  std::optional<NumberType> count;  // type of the length of a list; none: no list
 };
 
 struct Element {
@@ -119,7 +119,7 @@ void PlyParser::property() {
 
 void PlyParser::read(const Element& element, Numbers& numbers) {
   if (element.properties.empty()) return;
-  // As small as a record can be
+  // The smallest possible record has one byte per property
   numbers.checked_count(element.count, "the number of elements " + shown(element.name),
                         NumberType::int8, static_cast<std::int64_t>(element.properties.size()));
   if (element.name == "vertex") return read_vertices(element, numbers);

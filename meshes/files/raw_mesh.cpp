@@ -99,7 +99,7 @@ MeshGroups renumbered(const MeshGroups& groups, const std::vector<int>& renumber
 
 namespace {
 
-// Per vertex the one that stands for it
+// Returns per vertex the one that replaces it: the lowest along a chain of duplicates
 std::vector<std::int64_t> representatives(const TetMesh& mesh, double tolerance) {
   std::vector<std::int64_t> stands_for;
   for (const int twin : lower_twins(mesh.vertices, tolerance)) {
@@ -156,9 +156,9 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
 
 namespace {
 
-using Quadrangle = std::array<int, 4>;  // corners, outward; -1 at the end: a triangle
+using Quadrangle = std::array<int, 4>;  // corners, outward; a triangle has -1 at the end
 
-// The faces of a cell with so many corners, as Gmsh, VTK and Medit number them
+// Returns the faces of a cell with a number of corners, as Gmsh, VTK and Medit number them
 std::span<const Quadrangle> faces_of(int corners) {
   static constexpr Quadrangle
       pyramid[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}},
@@ -172,7 +172,7 @@ std::span<const Quadrangle> faces_of(int corners) {
 
 using NodeTriple = std::array<std::int64_t, 3>;
 
-// From the corner with the lowest number
+// Cuts a face into triangles from its corner with the lowest number
 std::vector<NodeTriple> cut_face(const Quadrangle& face, std::span<const std::int64_t> cell) {
   std::vector<std::int64_t> corners;
   for (const int k : face)
@@ -190,8 +190,8 @@ bool names_twice(const std::array<std::int64_t, 4>& v) {
   return false;
 }
 
-// Collapsed corners, such as a prism written as a hexahedron, leave out the tetrahedra that they
-// collapse
+// Cuts a cell into tetrahedra. A cell may name a vertex twice, as a prism written as a hexahedron
+// does; tetrahedra that would name one twice are left out.
 void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> corners,
               const Place& place, RawMesh& raw) {
   const std::size_t begin = raw.tets.size();

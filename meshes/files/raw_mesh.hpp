@@ -13,141 +13,143 @@
 
 namespace plica {
 
-/// A group of elements of lower dimension, as a file has it; a TetMesh keeps its vertices only.
+/// Group of points, lines or triangles in a file. A TetMesh keeps only its vertices, as a set.
 struct ElementGroup {
-  /// that of the vertex set; several groups may share it
+  /// name of the vertex set; several groups may share it
   std::string name;
-  int dimension = 0;     ///< 0: of points, 1: of lines, 2: of triangles
-  std::int64_t tag = 0;  ///< its number in the file
-  /// of each, in its first places, the vertices of the mesh
+  int dimension = 0;     ///< 0: points, 1: lines, 2: triangles
+  std::int64_t tag = 0;  ///< number of the group in the file
+  /// vertices of each element in the mesh; the first dimension + 1 are used
   std::vector<std::array<int, 3>> elements;
 };
 
-/// How a file numbers and builds the groups of a mesh, so that a conversion keeps that.
+/// Groups of a mesh as a file numbers and builds them, kept for a conversion to another format.
 struct MeshGroups {
   std::vector<std::int64_t> region_tags;  ///< per region; empty: the file has no numbers
   std::vector<ElementGroup> sets;         ///< in the order of dimensions and tags
 };
 
-/// The same groups when vertex v has become `renumbered[v]`; elements that lose a vertex (-1) or
-/// name one twice are dropped.
+/// Returns the groups with vertex v replaced by `renumbered[v]`. Elements that lose a vertex (-1)
+/// or then name one twice are dropped.
 MeshGroups renumbered(const MeshGroups& groups, const std::vector<int>& renumbered);
 
-/// What a reader found, repaired and left out.
+/// Report of a mesh reader: what it found, repaired and left out.
 struct MeshReport {
   std::string format;    ///< like "Gmsh MSH 2.2 ASCII"
-  int flipped = 0;       ///< tetrahedra that were inside out
+  int flipped = 0;       ///< tetrahedra that were inside out, turned
   int unreferenced = 0;  ///< vertices of no tetrahedron, dropped
-  /// tetrahedra with the vertices of another one, dropped where that is allowed
+  /// tetrahedra with the vertices of another one, dropped where Flaws::kept allows it
   int repeated = 0;
-  int collapsed = 0;  ///< tetrahedra that name a vertex twice, likewise
-  /// what else the file holds: kind of element -> how many
+  /// tetrahedra that name a vertex twice, dropped where Flaws::kept allows it
+  int collapsed = 0;
+  /// other elements of the file: kind of element -> how many
   std::map<std::string, int> other_elements;
-  std::map<std::string, int> cut;  ///< cells cut into tetrahedra, likewise
-  /// elements of higher order, of which the corners were taken, likewise
+  std::map<std::string, int> cut;  ///< cells cut into tetrahedra: kind of cell -> how many
+  /// elements of higher order, of which only the corners were used: kind -> how many
   std::map<std::string, int> linearised;
-  std::vector<std::string> skipped_sections;  ///< that the reader does not know
+  std::vector<std::string> skipped_sections;  ///< sections that the reader does not know
   std::vector<std::int64_t> vertex_tags;      ///< per vertex of the mesh its number in the file
   /// per tetrahedron of the mesh its number in the file
   std::vector<std::int64_t> tet_tags;
-  MeshGroups groups;  ///< as the file has them
+  MeshGroups groups;  ///< groups with the file's numbers
 };
 
-/// A vertex as it is in a file, under the file's own number.
+/// Vertex as a file has it, with the file's number.
 struct RawVertex {
   std::int64_t tag = 0;
   Point position = Point::Zero();
   Place place;
 };
 
-/// An element as it is in a file.
+/// Element as a file has it, with the file's numbers.
 template <std::size_t corners>
 struct RawElement {
   std::int64_t tag = 0;
-  std::array<std::int64_t, corners> vertices = {};  ///< tags
-  int region = 0;                                   ///< index into region_names, when there are any
+  std::array<std::int64_t, corners> vertices = {};  ///< tags of vertices
+  int region = 0;                                   ///< index in region_names, if there are any
   Place place;
 };
 using RawTet = RawElement<4>;
 using RawTriangle = RawElement<3>;
 
-/// That some element uses a vertex.
+/// Use of a vertex by some element.
 struct RawMention {
-  std::int64_t vertex = 0;  ///< tag
+  std::int64_t vertex = 0;  ///< tag of the vertex
   Place place;
 };
 
-/// A face with any number of corners.
+/// Face with any number of corners.
 struct RawPolygon {
   std::int64_t tag = 0;
   std::vector<std::int64_t> corners;  ///< tags of vertices
   Place place;
 };
 
-/// Faces that are none.
+/// Invalid faces of a surface.
 struct BadFaces {
   int count = 0;
-  Place place;          ///< of the first one
-  std::string message;  ///< what is wrong with it
+  Place place;          ///< place of the first one
+  std::string message;  ///< error of the first one
 
-  /// One more.
+  /// Counts one more, and keeps the place and message of the first one.
   void add(const Place& where, const std::string& what);
 };
 
-/// A group of points, lines or triangles.
+/// Group of points, lines or triangles as a file has it.
 struct RawGroup {
   std::string name;
   int dimension = 0;
   std::int64_t tag = 0;
-  std::vector<RawTriangle> elements;  ///< of which the first dimension + 1 vertices count
+  std::vector<RawTriangle> elements;  ///< the first dimension + 1 vertices of each are used
 };
 
-/// Vectors with a name, of vertices or of elements.
+/// Named vectors, one per vertex or per element.
 struct RawVectors {
   std::string name;
   bool of_vertices = false;
   std::vector<Point> values;
-  /// of a tag's value; empty: tags are the places
+  /// index in `values` of each tag; empty: the tag is the index
   std::unordered_map<std::int64_t, std::size_t> place = {};
 
-  /// The one of a vertex or element; zero where it has none.
+  /// Returns the vector of a vertex or element; zero where it has none.
   Point at(std::int64_t tag) const;
 };
 
-/// What a parser of any format gathers, before anything of it is believed.
+/// Unchecked content of a mesh file, as the parser of any format returns it.
 struct RawMesh {
   std::string file;
-  std::string vertex_file;  ///< when the vertices come from another one
+  std::string vertex_file;  ///< file of the vertices, if it is another one
   std::vector<RawVertex> vertices;
   std::vector<RawTet> tets;
-  /// where in `tets` each cell begins that was cut, and where it ends, in turns
+  /// begin and end of the tetrahedra of each cell that was cut: indices in `tets`, in turns
   std::vector<std::size_t> cut;
-  std::vector<RawTriangle> triangles;     ///< of a surface; for a mesh they are only checked
-  std::vector<RawPolygon> polygons;       ///< likewise
-  BadFaces bad_faces;                     ///< left out
+  std::vector<RawTriangle> triangles;     ///< triangles of a surface; only checked for a mesh
+  std::vector<RawPolygon> polygons;       ///< polygons of a surface; only checked for a mesh
+  BadFaces bad_faces;                     ///< invalid faces, left out
   std::vector<std::string> region_names;  ///< unique; empty: one nameless region
-  std::vector<std::int64_t> region_tags;  ///< their numbers in the file
-  std::vector<RawVectors> vectors;        ///< those of cells first
-  std::vector<RawGroup> groups;           ///< their vertices become the vertex set of their name
-  std::vector<RawMention> others;         ///< of elements that are not kept: only checked
+  std::vector<std::int64_t> region_tags;  ///< numbers of the regions in the file
+  std::vector<RawVectors> vectors;        ///< named vectors: those of cells before those of points
+  std::vector<RawGroup> groups;           ///< groups whose vertices become the set of their name
+  std::vector<RawMention> others;         ///< vertices of points and lines: only checked
   /// vertices of elements of higher order that are no corners
   std::vector<RawMention> middles;
 };
 
-/// Regions from a number per tetrahedron, in ascending order; numbers of the same name are one
-/// region. Where all are 0 there is one nameless region.
+/// Makes regions from a number per tetrahedron, in ascending order. Numbers with one name are one
+/// region. Where all numbers are 0 there is one nameless region.
 void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
                   const std::function<std::string(std::int64_t)>& name_of);
 
-/// From the numbers of vertices in a file to their positions in raw.vertices.
+/// Map from the numbers of vertices in a file to their indices in raw.vertices.
 class VertexNumbers {
  public:
-  /// InputError for a vertex that is defined twice or not finite.
+  /// Builds the map; throws an InputError for a vertex that is defined twice or not finite.
   explicit VertexNumbers(const RawMesh& raw);
 
-  /// InputError "WHO names node TAG, ..." for a number that the file does not define.
+  /// Returns the index of a vertex. Throws an InputError "WHO names node TAG, ..." for a number
+  /// that the file does not define.
   int at(std::int64_t tag, const Place& place, const std::function<std::string()>& who) const;
-  /// -1 for a number that the file does not define.
+  /// Returns the index of a vertex; -1 for a number that the file does not define.
   int find(std::int64_t tag) const;
 
  private:
@@ -155,18 +157,18 @@ class VertexNumbers {
   std::unordered_map<std::int64_t, int> index_;
 };
 
-/// A kind of element as a format numbers it.
+/// Kind of element of a format.
 struct ElementKind {
-  int type;
+  int type;  ///< number of the kind in the format
   const char* name;
   int dimension;
-  int vertices;  ///< 0: any number
-  int corners;   ///< its first vertices; 0: all of them; not_taken
+  int vertices;  ///< number of vertices; 0: any number
+  int corners;   ///< number of corners, which come first; 0: all vertices; not_taken
 };
-inline constexpr int not_taken = -1;
+inline constexpr int not_taken = -1;  ///< ElementKind::corners of a kind that is not supported
 
-/// The kind with a number if we take it; else an InputError "WHO has type TYPE, a NAME; supported
-/// are ...".
+/// Returns the kind with a number. Throws an InputError "WHO has type TYPE, a NAME; supported are
+/// ..." if the kind is not supported.
 const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t type,
                               const std::function<std::string()>& who, const std::string& file,
                               const Place& place);
@@ -175,18 +177,19 @@ const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t t
 void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
               RawMesh& raw);
 
-/// Adds an element of any kind: a tetrahedron as it is, other cells cut into tetrahedra, faces as
-/// triangles or polygons; what is of lower dimension is only checked. Elements of higher order are
-/// taken by their corners.
+/// Adds an element of any kind. Cells become tetrahedra, faces become triangles or polygons; points
+/// and lines are only checked. Elements of higher order are reduced to their corners.
 ///
-/// A cell is cut from its vertex with the lowest number, and each quadrangle across from it from
-/// the lowest of its own: two cells that share a quadrangle cut it alike, whatever they are.
-/// @return how many tetrahedra
+/// A cell is cut from its vertex with the lowest number. Each quadrangle across from this vertex is
+/// cut from its own lowest vertex. Two cells of any kind that share a quadrangle thus cut it in one
+/// way.
+/// @return the number of tetrahedra that were added
 std::size_t add_element(const ElementKind& kind, std::int64_t tag,
                         std::span<const std::int64_t> vertices, const Place& place, RawMesh& raw,
                         MeshReport& report);
 
-/// Adds an element of lower dimension to a group; a quadrangle as two triangles, cut as a cell's.
+/// Adds a point, line or face to a group. A quadrangle becomes two triangles, cut from its vertex
+/// with the lowest number as add_element() cuts the faces of cells.
 void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
                   const Place& place, RawGroup& group);
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-// from_chars knows no leading plus sign
+// Converts a word to a number; returns whether that succeeded. std::from_chars() does not accept a
+// leading plus sign.
 template <typename Number>
 bool parse(std::string_view word, Number& value) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
@@ -29,7 +30,7 @@ std::string lower_case(std::string_view word) {
   return text;
 }
 
-// Some programs end a text with zero bytes, or with that of CP/M
+// Some programs end a text with zero bytes, or with CP/M's end mark 0x1a
 TextLines::TextLines(const MemoryFile& file, char comment)
     : file_(file),
       comment_(comment),
@@ -168,7 +169,7 @@ std::int64_t Numbers::checked_count(std::int64_t count, std::string_view what, N
   return count;
 }
 
-// The mark of a section is no number: the record is missing
+// A line with the mark '$' of a section means that the record is missing
 void TextNumbers::begin(std::string_view what, std::int64_t number, std::int64_t of) {
   if (!lines_.next() || lines_.text().front() == '$')
     lines_.expected(std::string(what) +
@@ -204,12 +205,12 @@ double TextNumbers::any_number(NumberType, std::string_view what) {
 void TextNumbers::skip(std::int64_t count, NumberType, std::string_view what) {
   for (std::int64_t i = 0; i < count; ++i) {
     go_to_word(what);
-    if (word_ >= lines_.words().size()) lines_.integer(word_, what);  // says that it is missing
+    if (word_ >= lines_.words().size()) lines_.integer(word_, what);  // throws: it is missing
     ++word_;
   }
 }
 
-// A number is a digit, and a blank unless it is the last one
+// Each number has at least one digit, and a blank unless it is the last one
 std::int64_t TextNumbers::room(NumberType) const {
   return static_cast<std::int64_t>((lines_.bytes_left() + 1) / 2 + lines_.words().size() -
                                    std::min(word_, lines_.words().size()));

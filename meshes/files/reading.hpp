@@ -9,45 +9,48 @@
 
 namespace plica {
 
+/// Returns the word with its letters in lower case.
 std::string lower_case(std::string_view word);
 
-/// Text, taken line by line as words between blanks; every complaint names the line. Knows what is
-/// left of the file, so that a reader can tell an absurd count before it allocates. Where lines are
-/// headings of binary data, whoever reads the data says where the lines go on; from there, lines
-/// are named by their bytes.
+/// Reader of text line by line, as words between blanks. Every error names the line. The number of
+/// bytes left is known, so that an absurd count is refused before memory is allocated. Lines may be
+/// headings of binary data: the reader of the data then sets where the lines continue, and lines
+/// from there on are named by their bytes.
 class TextLines {
  public:
-  /// All of a file but zero bytes at its end; it must outlive this. What follows `comment` on a
-  /// line is left out, 0: nothing does.
+  /// Reads a whole file, except zero bytes at its end. The file must outlive this.
+  /// @param comment  starts a comment, which ends with the line; 0: there are none
   explicit TextLines(const MemoryFile& file, char comment = 0);
-  /// The part of a file that begins with line `first_line` at the byte `begin` and ends before
-  /// `end`.
+  /// Reads the bytes [begin, end) of a file, which begin in line `first_line`.
   TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
 
-  /// Goes to the next line that is not blank; false at the end of the file.
+  /// Goes to the next line that is not blank; returns false at the end of the file.
   bool next();
-  /// Goes to the next line; false at the end of the file.
+  /// Goes to the next line; returns false at the end of the file.
   bool next_or_blank();
-  /// Goes on after binary data.
+  /// Continues with a line that begins at a byte, after binary data.
   void resume_at(std::size_t byte);
 
-  std::string_view text() const { return text_; }  ///< of the line, without blanks around it
+  std::string_view text() const { return text_; }  ///< text of the line, without blanks around it
   const std::vector<std::string_view>& words() const { return words_; }
   std::size_t bytes_left() const { return end_ - next_; }
-  std::size_t next_byte() const { return next_; }  ///< where the next line begins
+  std::size_t next_byte() const { return next_; }  ///< first byte of the next line
   const MemoryFile& file() const { return file_; }
   Place place() const { return place_; }
 
-  /// A word as a number; InputError with `what` it was to be, when it is missing, no number, or not
-  /// finite.
-  double number(std::size_t word, std::string_view what) const;  ///< finite
-  /// which may be infinite or none
+  /// Returns a word as a number. Throws an InputError with the name `what` if it is missing, no
+  /// number, or not finite.
+  double number(std::size_t word, std::string_view what) const;
+  /// Returns a word as a number, which may be infinite or NaN. Throws an InputError with the name
+  /// `what` if it is missing or no number.
   double any_number(std::size_t word, std::string_view what) const;
+  /// Returns a word as an integer. Throws an InputError with the name `what` if it is missing or no
+  /// integer below 2^63.
   std::int64_t integer(std::size_t word, std::string_view what) const;
 
-  /// InputError at this line.
+  /// Throws an InputError at this line.
   [[noreturn]] void fail(const std::string& message) const { refuse(file_.name, place_, message); }
-  /// InputError "expected WHAT, found LINE"; at the end of the file "..., but the file ends".
+  /// Throws an InputError "expected WHAT, found LINE", or "expected WHAT, but the file ends".
   [[noreturn]] void expected(std::string_view what) const;
 
  private:
@@ -56,16 +59,16 @@ class TextLines {
 
   const MemoryFile& file_;
   char comment_ = 0;
-  std::size_t next_ = 0;  // where the line after this one starts
+  std::size_t next_ = 0;  // first byte of the next line
   std::size_t end_;
-  std::int64_t next_line_ = 1;  // its number; 0: unknown
+  std::int64_t next_line_ = 1;  // number of the next line; 0: unknown
   Place place_;
   bool part_ = false, ended_ = false;
   std::string_view text_;
   std::vector<std::string_view> words_;
 };
 
-/// How a binary file stores a number.
+/// Type of a number in a binary file.
 enum class NumberType {
   int8,
   uint8,
@@ -82,46 +85,54 @@ enum class NumberType {
 std::size_t bytes_of(NumberType type);
 inline bool is_integer(NumberType type) { return type < NumberType::float32; }
 
-/// Numbers one after the other, from text or from binary data: a format that has both forms is
-/// parsed once. Everything is an InputError with place, `what` was to be read, and the value, when
-/// it is not there or not sound.
+/// Reader of numbers one after the other, from text or binary data. A format that has both forms
+/// needs one parser only. A missing or invalid value is an InputError with its place, its name
+/// `what`, and the value.
 class Numbers {
  public:
   virtual ~Numbers() = default;
 
-  /// Record `number` of `of` begins (0 of 0: of one); the text form has each on a line of its own.
+  /// Begins record `number` of `of` (0 of 0: a single record). In text each is on a line of its
+  /// own.
   virtual void begin(std::string_view what, std::int64_t number = 0, std::int64_t of = 0) = 0;
-  /// It has been read: in the text form nothing more may be on its line.
+  /// Ends the record: in text nothing more may be on its line.
   virtual void end(std::string_view what) = 0;
 
+  /// Reads an integer.
   virtual std::int64_t integer(NumberType type, std::string_view what) = 0;
-  virtual double number(NumberType type, std::string_view what) = 0;  ///< finite
-  /// which may be infinite or none
+  /// Reads a number, which must be finite.
+  virtual double number(NumberType type, std::string_view what) = 0;
+  /// Reads a number, which may be infinite or NaN.
   virtual double any_number(NumberType type, std::string_view what) = 0;
+  /// Skips `count` numbers of a type.
   virtual void skip(std::int64_t count, NumberType type, std::string_view what) = 0;
 
-  virtual Place place() const = 0;                  ///< of the last number
-  virtual std::int64_t room(NumberType) const = 0;  ///< how many such numbers the rest has at most
-  virtual const std::string& file() const = 0;      ///< its name
+  virtual Place place() const = 0;                  ///< place of the last number
+  virtual std::int64_t room(NumberType) const = 0;  ///< maximum count of such numbers in the rest
+  virtual const std::string& file() const = 0;      ///< name of the file
+  /// Throws an InputError at the place of the last number.
   [[noreturn]] void fail(const std::string& message) const { refuse(file(), place(), message); }
 
-  /// How many `what` there are, each of at least `numbers` numbers of type `each`: from 0 to what
-  /// the rest of the file and an int have room for, so that no absurd count is ever allocated.
+  /// Reads the count of `what`, each of at least `numbers` numbers of type `each`. Throws an
+  /// InputError for one below 0, or above what the rest of the file or an int has room for. An
+  /// absurd count thus never leads to an allocation.
   std::int64_t count(NumberType type, std::string_view what, NumberType each, std::int64_t numbers);
-  /// The same of a count that has been read.
+  /// Returns a count of `what` that has been read, each of at least `numbers` numbers of type
+  /// `each`. Throws an InputError for one below 0, or above what the rest of the file or an int has
+  /// room for.
   std::int64_t checked_count(std::int64_t count, std::string_view what, NumberType each,
                              std::int64_t numbers) const;
 };
 
-/// From lines of text, whatever the type.
+/// Reader of numbers from lines of text; the type of a number has no effect.
 class TextNumbers final : public Numbers {
  public:
-  /// What follows the current line. `free`: a number may be on any of the following lines, as the
-  /// formats of VTK have it.
+  /// Starts after the current line.
+  /// @param free  a number may be on any of the following lines, as in the formats of VTK
   explicit TextNumbers(TextLines& lines, bool free = false)
       : lines_(lines), free_(free), word_(lines.words().size()) {}
 
-  /// From a word of the current line on, wherever they are.
+  /// Starts at a word of the current line; a number may be on any of the following lines.
   TextNumbers(TextLines& lines, std::size_t word) : lines_(lines), free_(true), word_(word) {}
 
   void begin(std::string_view what, std::int64_t number, std::int64_t of) override;
@@ -139,14 +150,15 @@ class TextNumbers final : public Numbers {
 
   TextLines& lines_;
   bool free_;
-  std::size_t word_;  // of the line, the next one
+  std::size_t word_;  // index of the next word of the line
 };
 
-/// From bytes, in either order of bytes.
+/// Reader of numbers from bytes, in either byte order.
 class ByteNumbers final : public Numbers {
  public:
-  /// @param bytes  of a file, or decoded from one; must outlive this
-  /// @param first  the place of the first byte: a byte, or the line that all of them come from
+  /// Starts at the first byte.
+  /// @param bytes  bytes of a file, or decoded from one; must outlive this
+  /// @param first  place of the first byte: a byte, or the line that all of them come from
   ByteNumbers(std::string file, std::string_view bytes, std::endian order, Place first)
       : file_(std::move(file)),
         bytes_(bytes),
@@ -163,8 +175,8 @@ class ByteNumbers final : public Numbers {
   std::int64_t room(NumberType type) const override;
   const std::string& file() const override { return file_; }
 
-  std::size_t taken() const { return next_; }  ///< bytes
-  std::size_t left() const { return bytes_.size() - next_; }
+  std::size_t taken() const { return next_; }                 ///< number of bytes that were read
+  std::size_t left() const { return bytes_.size() - next_; }  ///< number of bytes that are left
 
  private:
   template <typename Number>
@@ -177,13 +189,14 @@ class ByteNumbers final : public Numbers {
   std::size_t last_ = 0, next_ = 0;
 };
 
-/// The numbers of a file whose headings are lines of text.
+/// Form of the numbers in a file whose headings are lines of text.
 struct NumberForm {
   bool binary = false;
-  std::endian order = std::endian::native;  ///< of bytes
-  bool free = false;                        ///< as for TextNumbers
+  std::endian order = std::endian::native;  ///< byte order of binary numbers
+  bool free = false;                        ///< in text a number may be on any following line
 
-  /// What `read` makes of the numbers that follow the current line; the lines go on after them.
+  /// Calls read(numbers) for the numbers after the current line, and returns its result. The lines
+  /// continue after the numbers.
   template <typename Read>
   auto after(TextLines& lines, const Read& read) const {
     if (!binary) {

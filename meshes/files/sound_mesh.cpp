@@ -16,7 +16,7 @@ namespace plica {
 
 namespace {
 
-constexpr double flat = 1e-9;  // six volumes over the longest edge cubed
+constexpr double flat = 1e-9;  // six times the volume over the longest edge cubed
 
 template <typename... Parts>
 [[noreturn]] void refuse(const RawMesh& raw, const Place& place, const Parts&... parts) {
@@ -48,8 +48,8 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
            ") has no volume: ", volume, " for a longest edge of ", longest);
 }
 
-// All vertices as yet, with their positions in the file as indices; the tetrahedra turned right
-// side out
+// Adds the tetrahedra, and turns those that are inside out. Their vertices are indices in
+// raw.vertices: vertices of no tetrahedron are dropped later.
 void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh,
               MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
@@ -75,7 +75,8 @@ void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, T
   }
 }
 
-// The pieces of a cell that is no more than turned inside out all have one sign
+// Refuses a folded cell, whose pieces have volumes of both signs. A cell that is only inside out
+// has pieces of one sign.
 void refuse_folded(const RawMesh& raw, const VertexNumbers& numbering) {
   const auto nobody = [] { return std::string(); };
   for (std::size_t c = 0; c < raw.cut.size(); c += 2) {
@@ -126,7 +127,8 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
          "); an element belongs in one group of volumes only");
 }
 
-/// After the repeats: tetrahedra of the mesh are those of the file, in its order.
+/// Refuses tetrahedra that overlap at a face. Call it after refuse_repeats(), while the tetrahedra
+/// of the mesh are those of the file, in its order.
 void refuse_overlaps(const RawMesh& raw, const TetMesh& mesh) {
   const std::vector<std::size_t> found = overlap_at_a_face(mesh);
   if (found.empty()) return;
@@ -165,7 +167,8 @@ void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
   }
 }
 
-// Middles of edges and faces are used by elements, but not by ours
+// Counts the middles of edges and faces that no tetrahedron of the mesh uses: they are not reported
+// as unreferenced, as elements of the file use them
 int count_middles(const RawMesh& raw, const VertexNumbers& numbering,
                   const std::vector<int>& number) {
   std::set<int> middles;
@@ -201,8 +204,8 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
   }
 }
 
-// Of each tetrahedron, that of its cell or the mean of its corners; of two fields of a name the
-// first. After all numbers are final
+// Adds the named vectors: each tetrahedron gets that of its cell, or the mean of its corners. Of
+// two fields with one name the first is used. Call it after all numbers are final.
 void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
   for (const RawVectors& field : raw.vectors) {
     const auto [place, is_new] = mesh.tet_vectors.try_emplace(field.name);
@@ -216,8 +219,8 @@ void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
   }
 }
 
-// Files name groups in any encoding; from here on names are UTF-8. A name of a region and of a set
-// stays one name.
+// Converts the names of groups to UTF-8: files have them in any encoding. A name that a region and
+// a set share stays a shared one.
 void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
   std::vector<std::string> names = mesh.region_names;
   for (const auto& [name, set] : mesh.vertex_sets) names.push_back(name);

@@ -7,45 +7,45 @@
 
 namespace plica {
 
-/// What becomes of tetrahedra that cannot be simulated.
+/// Treatment of tetrahedra that cannot be simulated: an InputError, or kept for repair_mesh().
 enum class Flaws { refused, kept };
 
-/// The one way from a file to a mesh. Turns tetrahedra that are inside out, drops vertices of no
-/// tetrahedron (also from the sets), and writes both and the original numbers into `report`.
+/// Checks the content of a file and makes it a mesh; all readers use this function. Turns
+/// tetrahedra that are inside out, and drops vertices of no tetrahedron, also from the sets. Writes
+/// the counts of both and the original numbers into `report`.
 ///
-/// InputError with the place and the numbers in the file: no tetrahedron; a coordinate that is not
-/// finite; a vertex defined twice, or not at all; a tetrahedron that names a vertex twice, repeats
-/// another, or has no volume (six times the volume is at most 1e-9 of the longest edge cubed). The
-/// pieces of one cell must not be inside out in part.
-///
-/// @param flaws  kept: tetrahedra without volume are kept, those that repeat another or name a
-/// vertex twice are dropped and counted,
-///               for repair_mesh() to go on with
+/// @param flaws  kept: tetrahedra without volume, and overlapping ones, are kept for repair_mesh();
+/// those that repeat another or name a vertex twice are dropped and counted
+/// @throw InputError with the place and the numbers in the file: no tetrahedron; a coordinate that
+/// is not finite; a vertex defined twice, or not at all; a cell of which only some of the pieces
+/// are inside out. With Flaws::refused also: a tetrahedron that names a vertex twice, repeats
+/// another, overlaps another at a face, or has no volume (six times the volume is at most 1e-9 of
+/// the longest edge cubed)
 TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws = Flaws::refused);
 
-/// The one way from a file to a surface: its triangles, whatever else it holds. Open surfaces and
-/// those that are no manifold are taken and counted: whether they will do is for the caller to say.
+/// Checks the content of a file and makes its faces a surface; all readers use this function.
+/// Other elements are left out. Surfaces that are open or no manifold are accepted and reported:
+/// the caller decides whether they are suitable.
 ///
-/// @param found  what the parser found
-/// @throw InputError with the place: no triangle; quadrangles besides; a coordinate that is not
-/// finite; a vertex defined
-///        twice, or not at all; a triangle without area (twice the area is at most 1e-12 of the longest edge squared)
+/// @param found  report of the parser
+/// @throw InputError with the place: no triangle; a coordinate that is not finite; a vertex defined
+/// twice; more than one invalid face in a hundred. A face is invalid if it names a vertex that is
+/// not defined, if it cannot be cut into triangles, or if a triangle has no area (twice the area is
+/// at most 1e-12 of the longest edge squared)
 TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report);
 
-/// A mesh whose duplicate vertices were merged.
+/// Mesh whose duplicate vertices were merged.
 struct MergedMesh {
-  TetMesh mesh;                      ///< glued together
-  int merged = 0;                    ///< vertices that became one with another
-  std::vector<int> original_vertex;  ///< per vertex of the mesh its number before
-  std::vector<int> vertex;           ///< per vertex before its number in the mesh
+  TetMesh mesh;                      ///< merged mesh
+  int merged = 0;                    ///< vertices that were merged with another one
+  std::vector<int> original_vertex;  ///< per vertex of the merged mesh its original number
+  std::vector<int> vertex;           ///< per original vertex its number in the merged mesh
 };
 
-/// Glues a mesh together where vertices lie within `tolerance` [m], from zero, of another one: each
-/// becomes one with such a vertex of a lower number, and so on along chains. Tetrahedra keep their
-/// order.
-/// @throw InputError when a tetrahedron would lose its volume, or two would become the same: the
-/// tolerance is too large,
-///        or two bodies lie in each other
+/// Merges vertices within `tolerance` [m], which is 0 or more, of another one. Each is merged with
+/// such a vertex of a lower number, and so on along chains. Tetrahedra keep their order.
+/// @throw InputError if a tetrahedron would lose its volume, or two would become equal: the
+/// tolerance is too large, or two bodies overlap
 MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance);
 
 }  // namespace plica

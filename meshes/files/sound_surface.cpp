@@ -14,7 +14,7 @@ namespace plica {
 namespace {
 
 constexpr double flat_triangle = 1e-12;       // twice the area over the longest edge squared
-constexpr std::int64_t most_bad_faces = 100;  // one of so many may be bad
+constexpr std::int64_t most_bad_faces = 100;  // one face in this many may be invalid
 
 using Triangle = std::array<int, 3>;
 
@@ -25,7 +25,8 @@ class SurfaceMaker {
     for (const RawVertex& vertex : raw.vertices) surface.vertices.push_back(vertex.position);
   }
 
-  // All vertices as yet, with their positions in the file as indices
+  // Adds the triangles. Their vertices are indices in raw.vertices: vertices of no triangle are
+  // dropped later.
   void make() {
     for (const RawMention& mention : raw_.others)
       numbering_.at(mention.vertex, mention.place, [] { return std::string("an element"); });
@@ -81,7 +82,8 @@ class SurfaceMaker {
                "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
   }
 
-  // Twice the area of the triangle of corners `first`, k and k + 1 after it
+  // Returns the normal of a triangle, twice its area long. Its corners are `first` and those k and
+  // k + 1 after it.
   Point area(const std::vector<int>& v, std::size_t first, std::size_t k) const {
     const auto corner = [&](std::size_t i) -> const Point& {
       return at(v[(first + i) % v.size()]);
@@ -89,7 +91,8 @@ class SurfaceMaker {
     return (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));
   }
 
-  // Into triangles that all look to one side, from the first corner from which that can be done
+  // Cuts a polygon into triangles that all look to one side, from the first corner for which that
+  // is possible
   void polygon(std::vector<int> v, const RawPolygon& face) {
     v.erase(std::unique(v.begin(), v.end()), v.end());
     while (v.size() > 1 && v.front() == v.back()) v.pop_back();
@@ -120,13 +123,13 @@ class SurfaceMaker {
   BadFaces bad_;
 };
 
-// With the smallest vertex first, in the same turn
+// Returns the triangle with its smallest vertex first, in its orientation
 Triangle turned(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-// The first of each is kept, in its order
+// Drops triangles that repeat an earlier one in the same orientation; the others keep their order
 void drop_repeats(TriangleSurface& surface, SurfaceReport& report) {
   std::vector<std::size_t> order(surface.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

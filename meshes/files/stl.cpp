@@ -26,7 +26,7 @@ class StlGather {
   explicit StlGather(RawMesh& raw) : raw_(raw) {}
 
   void corner(std::size_t k, Point point, const Place& place) {
-    point.array() += 0.0;  // -0 becomes 0
+    point.array() += 0.0;  // makes -0 to 0: both must have one hash
     const auto [found, is_new] =
         index_.try_emplace(point, static_cast<std::int64_t>(index_.size()));
     if (is_new) raw_.vertices.push_back({found->second, point, place});

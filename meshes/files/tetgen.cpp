@@ -107,7 +107,7 @@ RawMesh parse_tetgen(const MemoryFile& file, MeshReport& report) {
 
 namespace {
 
-// Per vertex the number of the first set that has it, 0: none
+// Returns per vertex the number of the first set that has it; 0: none
 std::vector<std::int64_t> markers_of(const TetMesh& mesh, WrittenMesh& written) {
   std::vector<std::int64_t> markers(mesh.vertices.size(), 0);
   std::vector<std::string> names;

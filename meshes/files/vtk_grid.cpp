@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* region_name = "region";
 
-// Refuses per-cell numbers of another count than there are cells
+// Refuses an array that does not have one number per cell
 void check_count(const VtkGrid& grid, const std::vector<PlacedInteger>& values,
                  const std::string& what) {
   if (values.size() != grid.ends.size())
@@ -102,7 +102,7 @@ void VtkGrid::add_cells(int type, const std::vector<PlacedInteger>& points_of_ce
   }
 }
 
-// Every second triangle of a strip turns the other way
+// Adds the triangles of a strip; every second one has the opposite orientation
 void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
                         RawMesh& raw, MeshReport& report) const {
   ++report.other_elements["strip of triangles"];
@@ -146,7 +146,8 @@ RawMesh VtkGrid::mesh(MeshReport& report) const {
       numbers.insert(numbers.end(), add_element(kind, tag, corners, place, raw, report),
                      regions.empty() ? 0 : regions[c].value);
   }
-  for (const bool of_points : {false, true})  // a field of the whole file has no such count
+  // Vectors of another count belong to the file as a whole, and are left out
+  for (const bool of_points : {false, true})
     for (const RawVectors& field : vectors)
       if (field.of_vertices == of_points &&
           field.values.size() == (of_points ? points.size() : ends.size()))

@@ -7,7 +7,7 @@
 
 namespace plica {
 
-/// Of VTK (its header vtkCellType.h).
+/// Kinds of cells of VTK (VTK's header vtkCellType.h).
 inline constexpr ElementKind vtk_cells[] = {
     {1, "point", 0, 1, 1},
     {2, "set of points", 0, 0, 0},
@@ -50,41 +50,45 @@ inline constexpr ElementKind vtk_cells[] = {
     {80, "Bezier prism", 3, 0, 6},
 };
 
-/// A number of a file and where it is.
+/// Integer of a file and its place.
 struct PlacedInteger {
   std::int64_t value = 0;
   Place place;
 };
+/// Reads `count` integers with their places.
 std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what,
                                          Numbers& numbers);
 
-/// An unstructured grid or the cells of polygonal data, as both formats of VTK hold them. Points
-/// and cells count from 0.
+/// Unstructured grid, or the cells of polygonal data, of both VTK formats. Points and cells count
+/// from 0.
 struct VtkGrid {
   std::string file;
   std::vector<RawVertex> points;
-  std::vector<PlacedInteger> connectivity;  ///< the points of cell after cell
-  std::vector<PlacedInteger> ends;          ///< per cell where it ends in `connectivity`
-  std::vector<PlacedInteger> types;         ///< per cell
-  /// the name of that one of the cells' arrays; empty: there is none
+  std::vector<PlacedInteger> connectivity;  ///< points of the cells, cell after cell
+  std::vector<PlacedInteger> ends;          ///< per cell its end in `connectivity`
+  std::vector<PlacedInteger> types;         ///< per cell the type in vtk_cells
+  /// name of the cells' array that gives the regions; empty: there is none
   std::string region_array;
-  std::vector<PlacedInteger> regions;  ///< per cell
-  std::vector<RawVectors> vectors;     ///< of cells and points
+  std::vector<PlacedInteger> regions;  ///< per cell the number of its region
+  std::vector<RawVectors> vectors;     ///< named vectors of cells and points
 
+  /// Reads the coordinates of `count` points.
   void read_points(std::int64_t count, NumberType type, Numbers& numbers);
-  /// Reads an array of the cells, from numbers or past them: the one named "region" tells the
-  /// regions, else the first one of an integer per cell. Three fractions per cell are vectors.
+  /// Reads an array of the cells, or skips it. The array "region" gives the regions, else the first
+  /// array with one integer per cell. Arrays with three real numbers per cell are vectors.
   void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components,
                       NumberType type, Numbers& numbers);
-  /// Likewise an array of the points: three fractions each are vectors.
+  /// Reads an array of the points, or skips it. Arrays with three real numbers per point are
+  /// vectors.
   void read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components,
                        NumberType type, Numbers& numbers);
-  /// Adds cells of one kind, whose ends count from their own first point.
+  /// Adds cells of one kind.
+  /// @param cell_ends  per cell its end in `points_of_cells`
   void add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
                  const std::vector<PlacedInteger>& cell_ends);
-  /// Checks that the parts fit each other. Cells become tetrahedra and faces; what is of lower
-  /// dimension is counted and checked; region 3 of the array "region" is named "region_3", and
-  /// where all are 0 there is one nameless region.
+  /// Checks that the arrays fit each other, and returns the mesh. Cells become tetrahedra and
+  /// faces; points and lines are counted and checked. Region 3 of the array "region" is named
+  /// "region_3". Where all regions are 0 there is one nameless region.
   RawMesh mesh(MeshReport& report) const;
 
  private:

@@ -65,7 +65,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Takes `word` from the end of `text`, and blanks before it
+// Removes `word` and the blanks before it from the end of `text`; returns false if it is not there
 bool take_last(std::string_view& text, std::string_view word) {
   if (!text.ends_with(word)) return false;
   text.remove_suffix(word.size());
@@ -73,7 +73,7 @@ bool take_last(std::string_view& text, std::string_view word) {
   return true;
 }
 
-// Byte and line in the file, of places that mostly come one after the other
+// Map from bytes to lines of a file; fast for places that mostly come in ascending order
 class Lines {
  public:
   explicit Lines(std::string_view text) : text_(text) {}
@@ -89,7 +89,7 @@ class Lines {
   std::int64_t line_ = 1;
 };
 
-// Where the start tag ends that begins here, after its '>'; npos: nowhere
+// Returns the byte after the '>' of the start tag that begins at `begin`; npos: it does not end
 std::size_t end_of_tag(std::string_view text, std::size_t begin) {
   char quote = 0;
   for (std::size_t i = begin; i < text.size(); ++i) {
@@ -158,7 +158,7 @@ std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
                            pugi::encoding_utf8);
   if (!parsed) {
     std::size_t at = head.rfind('<', static_cast<std::size_t>(parsed.offset));
-    if (parsed.status == pugi::status_bad_comment) {  // told at the end of the file
+    if (parsed.status == pugi::status_bad_comment) {  // pugixml gives the end of the file as place
       const std::size_t ended = head.rfind("-->");
       at = head.find("<!--", ended == std::string::npos ? 0 : ended);
     }
@@ -279,7 +279,7 @@ void VtuArrays::read_ascii(const XmlElement& array, NumberType type, const Take&
   if (lines.next()) lines.fail(shown(lines.text()) + " is too much for " + place_of(array));
 }
 
-// The length in bytes, then the numbers
+// Reads the length in bytes, then the numbers
 void VtuArrays::read_bytes(std::string_view bytes, const Place& place, NumberType type,
                            const Take& take) const {
   const std::size_t head = bytes_of(length_type_);
@@ -296,8 +296,9 @@ void VtuArrays::read_bytes(std::string_view bytes, const Place& place, NumberTyp
     numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
 }
 
-// The number of blocks, their size, that of the last one (0: as the others), the compressed size of
-// each; then the blocks. In base64 the numbers are encoded apart.
+// Reads a compressed array. Its head is the number of blocks, their size, the size of the last one
+// (0: as the others), and the compressed size of each; then come the blocks. In base64 the head is
+// encoded separately.
 void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlElement& array,
                                 const Place& place, NumberType type, const Take& take) const {
   const auto bad = [&](const std::string& what) {
@@ -366,8 +367,8 @@ std::string_view VtuArrays::appended_at(const XmlElement& array) const {
       .substr(static_cast<std::size_t>(offset));
 }
 
-// Length and numbers are encoded together, but some writers pad the length and begin anew.
-// `exactly`: all of the text.
+// Returns the decoded length and numbers of an array. They are encoded together, but some writers
+// encode the length separately, with padding. `exactly`: the array must be all of the text.
 std::string VtuArrays::decoded(std::string_view text, bool exactly, const Place& place) const {
   const auto bad = [&]() { refuse(file_.name, place, "an array is no whole base64 text"); };
   const std::size_t head = bytes_of(length_type_), head_size = base64_size(head);

@@ -11,41 +11,41 @@
 
 namespace plica {
 
-/// How many characters encode so many bytes (RFC 4648, with padding).
+/// Returns the number of characters that encode a number of bytes (RFC 4648, with padding).
 constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
-/// The bytes that the characters encode; nothing when they are not whole groups of four from the
-/// alphabet, the last one filled up with '='.
+/// Returns the bytes that the characters encode. Returns nothing unless they are whole groups of
+/// four from the alphabet, the last one filled up with '='.
 std::optional<std::string> decode_base64(std::string_view text);
 
-/// An element of the XML of a VTU file, and the text between its start tag and the next tag.
+/// XML element of a VTU file, and the text between its start tag and the next tag.
 struct XmlElement {
   std::string name;
-  std::string parent;  ///< the name of the element around it; empty: none
+  std::string parent;  ///< name of the element around it; empty: none
   std::map<std::string, std::string> attributes;
   Place place;
-  std::size_t text_begin = 0;  ///< bytes
-  std::size_t text_end = 0;
-  std::int64_t text_line = 0;  ///< where it begins
+  std::size_t text_begin = 0;  ///< first byte of the text in the file
+  std::size_t text_end = 0;    ///< byte after the text
+  std::int64_t text_line = 0;  ///< line in which the text begins
 };
 
-/// The elements in the file's order. Appended data may be no XML, so the parser (pugixml) sees the
-/// file up to <AppendedData>; what follows is VtuArrays' to check. InputError with the line for
-/// malformed XML, document types and CDATA.
+/// Returns the elements in the file's order. Appended data may be no XML, so the parser (pugixml)
+/// gets the file up to <AppendedData> only; VtuArrays checks the rest. Throws an InputError with
+/// the line for malformed XML, document types and CDATA.
 std::vector<XmlElement> vtu_elements(const MemoryFile& file);
 
-/// The numbers of a <DataArray>, wherever and however the file stores them.
+/// Reader of the numbers of a <DataArray>, in all forms in which a file stores them.
 class VtuArrays {
  public:
   explicit VtuArrays(const MemoryFile& file) : file_(file) {}
 
-  /// From <VTKFile>: order of bytes, type of the lengths, and how arrays that are not text are
-  /// compressed.
+  /// Reads the attributes of <VTKFile>: byte order, type of the lengths, and compression of arrays
+  /// that are not text.
   void header(const XmlElement& element);
-  /// <AppendedData>: the rest of the file is checked, and kept for arrays that are in it.
+  /// Checks the rest of the file after <AppendedData>, and notes where its arrays are.
   void appended(const XmlElement& element);
 
-  /// Lets `take` take all numbers of an array, of its `type`; nothing may be left of them.
+  /// Calls take(numbers, type) for the numbers of an array. It must read all of them.
   void read(const XmlElement& array,
             const std::function<void(Numbers& numbers, NumberType type)>& take) const;
 
@@ -63,17 +63,20 @@ class VtuArrays {
   const MemoryFile& file_;
   std::endian order_ = std::endian::little;
   NumberType length_type_ = NumberType::uint32;
-  std::string compressor_;  // its name; empty: none
+  std::string compressor_;  // name of the compressor; empty: none
   bool has_appended_ = false, raw_ = false;
-  std::size_t begin_ = 0, end_ = 0;  // of the appended data
+  std::size_t begin_ = 0, end_ = 0;  // bytes [begin_, end_) of the appended data
 };
 
-/// An attribute; InputError when there is none.
+/// Returns an attribute; throws an InputError if there is none.
 const std::string& attribute(const XmlElement& element, const std::string& key,
                              const MemoryFile& file);
-/// The same as an integer from 0.
+/// Returns an attribute as an integer; throws an InputError if it is missing, no integer or below
+/// 0.
 std::int64_t attribute_count(const XmlElement& element, const std::string& key,
                              const MemoryFile& file);
+/// Returns the type of the numbers of an array; throws an InputError with the choices if the
+/// attribute "type" is missing or unknown.
 NumberType vtu_type(const XmlElement& array, const MemoryFile& file);
 
 }  // namespace plica

@@ -9,7 +9,7 @@ namespace plica {
 namespace {
 
 constexpr int tet_type = 4;
-constexpr int types[] = {15, 1, 2};  // of points, lines and triangles
+constexpr int types[] = {15, 1, 2};  // MSH types of points, lines and triangles
 
 void check_name(const std::filesystem::path& path, const std::string& name) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
@@ -19,28 +19,28 @@ void check_name(const std::filesystem::path& path, const std::string& name) {
 
 std::int64_t size_of(const auto& container) { return static_cast<std::int64_t>(container.size()); }
 
-// A mesh and its groups as MSH numbers them
+// Mesh and its groups with the numbers for MSH
 struct Parts {
   Parts(const TetMesh& mesh_, const MeshGroups& groups)
       : mesh(mesh_), sets(groups_of(mesh, groups)), tags(region_tags(mesh, groups)) {
     for (const ElementGroup& set : sets) elements += size_of(set.elements);
   }
-  // 0: none
+  // Returns the tag of the region of a tetrahedron; 0 without regions
   std::int64_t region_tag(std::size_t tet) const {
     return mesh.region.empty() ? 0 : tags[static_cast<std::size_t>(mesh.region[tet])];
   }
 
   const TetMesh& mesh;
   std::vector<ElementGroup> sets;
-  std::vector<std::int64_t> tags;  // of the regions
+  std::vector<std::int64_t> tags;  // tags of the regions
   std::int64_t elements = size_of(mesh.tets);
 };
 
-// Vertices and elements have tags from 1
+// Writes the format and the names of groups. Vertices and elements have tags from 1.
 void write_heading(const char* version, const std::filesystem::path& path, const Parts& parts,
                    WrittenMesh& written, NumbersOut& out) {
   out.text("$MeshFormat\n").text(version).text(out.binary() ? " 1 8\n" : " 0 8\n");
-  if (out.binary()) out.int32(1).text("\n");  // tells the order of bytes
+  if (out.binary()) out.int32(1).text("\n");  // tells the byte order
   out.text("$EndMeshFormat\n");
   const std::size_t names = parts.tags.size() + parts.sets.size();
   if (names == 0) return;
@@ -59,12 +59,12 @@ void write_heading(const char* version, const std::filesystem::path& path, const
   out.text("$EndPhysicalNames\n");
 }
 
-// In binary the end of a section is on a line of its own
+// Writes the end of a section; in binary it is on a line of its own
 void end_section(const char* name, NumbersOut& out) {
   out.text(out.binary() ? "\n$End" : "$End").text(name).text("\n");
 }
 
-// An entity for each group, with its tag; one for a mesh without regions
+// Writes an entity for each group, with its tag, and one for a mesh without regions
 void write_entities(const Parts& parts, NumbersOut& out) {
   std::int64_t counts[] = {0, 0, 0, std::max<std::int64_t>(size_of(parts.tags), 1)};
   for (const ElementGroup& set : parts.sets) ++counts[set.dimension];
@@ -87,7 +87,7 @@ void write_entities(const Parts& parts, NumbersOut& out) {
   end_section("Entities", out);
 }
 
-// A block per group and per run of tetrahedra of one region, to keep their order
+// Writes a block per group, and per run of tetrahedra of one region: their order is kept
 void write_blocks(const Parts& parts, NumbersOut& out) {
   const TetMesh& mesh = parts.mesh;
   std::int64_t blocks = mesh.tets.empty() ? 0 : 1;
@@ -123,7 +123,7 @@ void write_blocks(const Parts& parts, NumbersOut& out) {
   end_section("Elements", out);
 }
 
-// The same in every version: the tetrahedra are the last elements
+// Writes the named vectors, in one form for all versions. The tetrahedra are the last elements.
 void write_vectors(const Parts& parts, NumbersOut& out) {
   for (const auto& [name, vectors] : parts.mesh.tet_vectors) {
     out.text("$ElementData\n1\n\"" + name + "\"\n1\n0\n3\n0\n3\n" + std::to_string(vectors.size()) +
@@ -134,8 +134,8 @@ void write_vectors(const Parts& parts, NumbersOut& out) {
   }
 }
 
-// Version 2.2 gives an element its type and number of tags in text, a whole run of elements in
-// binary
+// Writes an element of version 2.2. In text each element has its type and number of tags; in binary
+// a run of elements has them.
 void write_element22(std::int64_t tag, int type, std::int64_t group, std::span<const int> vertices,
                      NumbersOut& out) {
   out.int32(tag);

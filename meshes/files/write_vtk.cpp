@@ -16,14 +16,14 @@ WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   return written;
 }
 
-// What both formats can take for a name
+// Returns a name that both formats can hold, with '_' for blanks and XML's special characters
 std::string written_name(std::string name) {
   for (char& c : name)
     if (c <= ' ' || std::string_view("\"'<>&\x7f").find(c) != std::string_view::npos) c = '_';
   return name;
 }
 
-// Each array after its length in bytes
+// Appended data of the XML format: each array after its length in bytes
 class Appended {
  public:
   template <typename Number>
@@ -43,7 +43,7 @@ class Appended {
   std::string bytes_;
 };
 
-// Each array ends its line, in binary too
+// Writes the legacy format; each array ends its line, in binary too
 WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
                          const MeshGroups& groups, bool binary) {
   WrittenMesh written = noted(mesh, groups);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t tags_end = 1'000'000'000;
 
-// The number after the last underscore, from 1; 0: there is none
+// Returns the number after the last underscore, 1 or more; 0: there is none
 std::int64_t number_at_end(const std::string& name) {
   const std::size_t at = name.rfind('_');
   std::int64_t number = 0;
@@ -24,7 +24,7 @@ std::int64_t number_at_end(const std::string& name) {
              : 0;
 }
 
-// Numbers that no group can have, such as 0 for none, become free ones
+// Replaces numbers that a group cannot have, such as 0 for none, by free ones
 void make_positive(std::vector<std::int64_t>& tags) {
   const auto usable = [](std::int64_t tag) { return tag > 0 && tag < tags_end; };
   std::int64_t last = 0;

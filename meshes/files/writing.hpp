@@ -10,75 +10,80 @@
 
 namespace plica {
 
-/// What a writer makes of a mesh.
+/// Result of a mesh writer.
 struct WrittenMesh {
-  std::vector<MemoryFile> files;      ///< names and bytes
-  std::vector<std::string> left_out;  ///< what the format cannot hold, a sentence each
+  std::vector<MemoryFile> files;      ///< names and bytes of the files
+  std::vector<std::string> left_out;  ///< sentences, one for each thing that the format cannot hold
 };
 
-/// Text in the making. Numbers are as short as they can be while they keep every bit.
+/// Text that is being written. Numbers have the fewest digits that keep every bit.
 class TextOut {
  public:
-  /// As it is.
+  /// Appends a text unchanged.
   TextOut& operator<<(std::string_view text) { return text_ += text, *this; }
-  TextOut& operator<<(double number);        ///< in the fewest digits
-  TextOut& operator<<(std::int64_t number);  ///< in decimal
-  /// In decimal.
+  TextOut& operator<<(double number);        ///< appends a number in the fewest digits
+  TextOut& operator<<(std::int64_t number);  ///< appends an integer in decimal
+  /// Appends an integer in decimal.
   TextOut& operator<<(int number) { return *this << std::int64_t{number}; }
-  /// In decimal.
+  /// Appends an integer in decimal.
   TextOut& operator<<(std::size_t number) { return *this << static_cast<std::int64_t>(number); }
-  /// Three numbers with a blank before each
+  /// Appends three numbers with a blank before each.
   TextOut& operator<<(const Point& point) {
     return *this << " " << point.x() << " " << point.y() << " " << point.z();
   }
-  /// The text, once.
+  /// Returns the text and leaves this empty.
   std::string take() { return std::move(text_); }
 
  private:
   std::string text_;
 };
 
-/// Positive numbers for names: those at their ends where all have one and none twice ("region_5"),
-/// so that a file written from what was read has the same; else from 1.
+/// Returns positive numbers for names. They are the numbers at the ends of the names ("region_5")
+/// if all have one and none twice; else they count from 1. A file that is read and written again so
+/// keeps its numbers.
 std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names);
 
-/// The numbers of the regions: their file's, where it has them, else those at the ends of their
-/// names or from 1.
+/// Returns the numbers of the regions. They are those of the file if it has them; else those at the
+/// ends of the names, or from 1.
 std::vector<std::int64_t> region_tags(const TetMesh& mesh, const MeshGroups& groups);
 
-/// Per tetrahedron the number of its region; empty without regions.
+/// Returns per tetrahedron the number of its region; empty without regions.
 std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& groups);
 
-/// The groups to write: those of the file, and each other vertex set as a group of points. Tags are
-/// unique within a dimension.
+/// Returns the groups to write: those of the file, and each other vertex set as a group of points.
+/// Tags are positive; 0 and other unusable tags get free numbers of their dimension.
 std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& groups);
 
-/// Notes which names of regions a format cannot hold that will read their numbers as
-/// "PREFIXnumber".
+/// Reports the names of regions that are lost in a format without names. A reader of the format
+/// names a region "PREFIXnumber".
 void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups,
                             const std::string& prefix, WrittenMesh& written);
-/// Notes all vertex sets.
+/// Reports that all vertex sets are left out.
 void leave_out_vertex_sets(const TetMesh& mesh, WrittenMesh& written);
 
-/// Numbers one after the other, as text or in binary: a format that has both forms is written once.
+/// Writer of numbers one after the other, as text or in binary. A format that has both forms needs
+/// one writer only.
 class NumbersOut {
  public:
   explicit NumbersOut(bool binary, std::endian order = std::endian::native)
       : binary_(binary), order_(order) {}
 
-  bool binary() const { return binary_; }
-  NumbersOut& text(std::string_view text);  ///< as it is in both forms
-  NumbersOut& int32(std::int64_t number);   ///< which must fit
-  NumbersOut& int64(std::int64_t number);   ///< where the format has a size, too
-  NumbersOut& real32(double number);        ///< rounded in binary
+  bool binary() const { return binary_; }   ///< whether numbers are written in binary
+  NumbersOut& text(std::string_view text);  ///< writes a text unchanged in both forms
+  NumbersOut& int32(std::int64_t number);   ///< writes an integer, which must fit 32 bits
+  NumbersOut& int64(std::int64_t number);   ///< writes an integer, also where a format has a size
+  NumbersOut& real32(double number);        ///< writes a number, rounded to a float in binary
+  /// Writes three numbers, rounded to floats in binary.
   NumbersOut& real32(const Point& point) {
     return real32(point.x()).real32(point.y()).real32(point.z());
   }
-  NumbersOut& real64(double number);
+  NumbersOut& real64(double number);  ///< writes a number
+  /// Writes three numbers.
   NumbersOut& real64(const Point& point) {
     return real64(point.x()).real64(point.y()).real64(point.z());
   }
-  NumbersOut& end();  ///< of a record: of its line, in text
+  NumbersOut& end();  ///< ends a record, and its line in text
+  /// Returns the bytes and leaves this empty.
   std::string take() { return std::move(bytes_); }
 
  private:

@@ -21,11 +21,12 @@ double since(DoctorClock::time_point start) {
   return std::chrono::duration<double>(DoctorClock::now() - start).count();
 }
 
-constexpr double in_memory = 256e6, in_cache = 256e3;  // bytes: of all threads, of each
+// sizes of the test arrays: of all threads together, of each thread [bytes]
+constexpr double in_memory = 256e6, in_cache = 256e3;
 
 struct Limits {
-  double memory = 0, cache = 0;  ///< [bytes/s]
-  double flops = 0, flops_float = 0;
+  double memory = 0, cache = 0;       ///< bandwidth [bytes/s]
+  double flops = 0, flops_float = 0;  ///< peak in double and in float [flop/s]
 };
 
 Limits measure_limits() {
@@ -34,17 +35,17 @@ Limits measure_limits() {
           fma_peak<double>(), fma_peak<float>()};
 }
 
-/// A number of the self-test, and what it was when it was stored.
+/// One number of the self-test, computed and stored
 struct Answer {
   std::string name, unit;
   double got = 0, stored = 0;
-  double tolerance = 0;  ///< absolute: far above what rounding on another processor does, far below
-                         ///< what a wrong force does
+  double tolerance = 0;  ///< absolute: far above the effect of rounding on another processor, and
+                         ///< far below the effect of a wrong force
   bool ok() const { return std::abs(got - stored) <= tolerance; }
 };
 
-/// A soft ball of three meshes falls askew into a bowl, in cycle him on nodal elements, and is
-/// pressed against it.
+/// Returns the problem of the self-test: a soft ball falls obliquely into a bowl. The ball has
+/// three meshes of nodal elements, stepped by cycle him.
 Problem ball_in_bowl() {
   Problem p;
   for (const int cells : {14, 9, 5}) p.body.levels.push_back(ball_mesh({0, 0, 0.1}, 0.05, cells));

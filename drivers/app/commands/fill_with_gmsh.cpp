@@ -25,8 +25,9 @@ namespace plica::app {
 
 namespace {
 
-constexpr double same_volume = 0.1;  // edges of the size cut corners
-// bytes; Gmsh 4.8 splits a surface of four triangles without end
+// maximum relative difference of the volumes of mesh and surface: edges of this size cut corners
+constexpr double same_volume = 0.1;
+// maximum size of Gmsh's messages [bytes]; Gmsh 4.8 splits a surface of four triangles without end
 constexpr std::uintmax_t many_words = 10'000'000;
 
 class TemporaryFolder {
@@ -50,7 +51,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// The surface in patches that meet at edges sharper than 40 degrees, meshed anew, and its inside
+// Returns Gmsh's input. Gmsh splits the surface into patches at edges sharper than 40 degrees,
+// meshes the patches again, and meshes the inside
 std::string gmsh_script(const std::filesystem::path& surface, double size) {
   return fmt::format(
       "Merge \"{}\";\n"
@@ -64,7 +66,7 @@ std::string gmsh_script(const std::filesystem::path& surface, double size) {
       surface.string(), size, size / 2);
 }
 
-// The lines in which Gmsh names an error; where there are none the last one
+// Returns the lines in which Gmsh reports an error; if there are none, the last line
 std::string errors_in(const std::filesystem::path& said) {
   std::ifstream file(said);
   std::string errors, last;
@@ -75,7 +77,8 @@ std::string errors_in(const std::filesystem::path& said) {
   return errors.empty() ? "\n  " + last : errors;
 }
 
-// Why a process that runs since `start` is to be stopped; nothing: it is not
+// Returns why Gmsh, which has run since `start`, has to be stopped; empty: it may run on. Its
+// messages are in the file `said`
 std::string why_stopped(const std::filesystem::path& said,
                         std::chrono::steady_clock::time_point start, double time_limit) {
   std::error_code none_yet;
@@ -90,7 +93,8 @@ std::string why_stopped(const std::filesystem::path& said,
       time_limit);
 }
 
-// Its exit status, negative where it did not end by itself; what it says goes to a file
+// Runs Gmsh with its messages written to the file `said`. Returns its exit status; negative: it did
+// not start or did not end by itself
 int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh,
              const std::filesystem::path& said, double time_limit) {
   std::array<std::string, 8> words = {"gmsh", script.string(), "-3",      "-format", "msh22",

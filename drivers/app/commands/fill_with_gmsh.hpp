@@ -4,12 +4,13 @@
 
 namespace plica::app {
 
-/// Whether the outside program Gmsh is installed: it is on PATH.
+/// Returns true if the external program Gmsh is on PATH.
 bool has_gmsh();
 
-/// A mesh of a closed surface's inside that fits it, with edges of about `size` [m]. Gmsh runs as a
-/// process of its own, in a folder for temporary files, at most for `time_limit` [s]. InputError
-/// with Gmsh's own words where it makes none, or one of another volume.
+/// Returns a mesh, made by Gmsh, of the inside of a closed surface. The mesh fits the surface; its
+/// edges are about `size` [m] long. Gmsh runs as a separate process in a temporary folder, for at
+/// most `time_limit` [s]. Throws InputError with Gmsh's messages if it makes no mesh, or a mesh
+/// whose volume is not that of the surface.
 TetMesh fill_with_gmsh(const TriangleSurface& surface, double size, double time_limit);
 
 }  // namespace plica::app

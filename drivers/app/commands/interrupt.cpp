@@ -19,9 +19,10 @@ constexpr std::chrono::milliseconds patience(500);
 constexpr int leave_now = static_cast<int>(ExitStatus::interrupted);
 
 volatile std::sig_atomic_t raised = 0;
-int wake_up[2] = {-1, -1};  // a pipe: the handler writes to its end [1], the thread reads from [0]
+int wake_up[2] = {-1, -1};  // pipe: the handler writes to its end [1], the thread reads from [0]
 
-// What a signal handler may do is little: set a flag, write to a pipe, end the program
+// Sets the flag and wakes the thread; the second signal ends the program. A signal handler may do
+// little more than set a flag, write to a pipe or end the program
 void on_signal(int) {
   if (raised != 0) _exit(leave_now);
   raised = 1;

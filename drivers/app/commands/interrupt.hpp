@@ -10,19 +10,19 @@
 
 namespace plica::app {
 
-/// Whether the user wants the command to end: Ctrl-C (SIGINT) or SIGTERM came. A command that steps
-/// asks often and ends in good order.
+/// Returns true after Ctrl-C (SIGINT) or SIGTERM: the user wants the command to end. A command that
+/// takes steps asks often; it then writes its last files and returns.
 bool interrupted();
 
-/// From here to the end of the scope the first Ctrl-C or SIGTERM makes interrupted() true. A second
-/// one ends the program at once. A command may be too busy to ask: a set-up, or a macro step of
-/// very many sub-steps. So a thread waits for the signal, gives the command half a second, then
-/// calls what on_leave() has set and ends the program with status 130.
+/// Handles Ctrl-C and SIGTERM in its scope: the first signal makes interrupted() true. A second
+/// signal ends the program at once. A command may be too busy to ask: a set-up, or a macro step of
+/// very many sub-steps. So a thread waits for the signal and gives the command half a second. Then
+/// it calls the function that on_leave() has set, and ends the program with status 130.
 ///
 ///     signal ──> interrupted() is true ── 0.5 s ──> leave(), exit 130
 ///                         └── the command asks: end_in_order(), writes its last files, returns
 ///
-/// One at a time.
+/// At most one object of this class may exist at a time.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -31,10 +31,10 @@ class InterruptWatch {
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
   using Lock = std::unique_lock<std::mutex>;
-  /// While this lives the thread does not end the program: whoever writes files or changes what
-  /// `leave` reads holds it.
+  /// Returns a lock; while it exists, the thread does not end the program. Hold it to write files,
+  /// or to change data that `leave` reads.
   Lock hold() { return Lock(mutex_); }
-  /// Calls end_in_order() at the end of its scope, before what `leave` refers to goes.
+  /// Calls end_in_order() at the end of its scope, before the data that `leave` reads is destroyed.
   class Leaving {
    public:
     explicit Leaving(InterruptWatch& watch) : watch_(watch) {}
@@ -45,12 +45,14 @@ class InterruptWatch {
    private:
     InterruptWatch& watch_;
   };
-  /// What the thread does before it ends the program, instead of saying that nothing was written.
-  /// The caller holds the lock, and the thread holds it while it calls `leave`.
+  /// Sets the function that the thread calls before it ends the program. Without it, the thread
+  /// says that nothing was written. The caller holds the lock; the thread holds it while it calls
+  /// `leave`.
   [[nodiscard]] Leaving on_leave(const Lock& held, std::function<void()> leave);
-  /// The command ends by itself from here on: the thread no longer ends the program.
+  /// Tells the thread that the command ends by itself: the thread does not end the program.
   void end_in_order();
-  /// interrupted(), for a command that then ends at once, in order.
+  /// Returns interrupted(), and calls end_in_order() if it is true. For a command that then writes
+  /// its last files and returns at once.
   bool noticed() {
     if (interrupted()) end_in_order();
     return interrupted();
@@ -66,8 +68,8 @@ class InterruptWatch {
   std::thread thread_;
 };
 
-/// What Ctrl-C leaves of measurements while one of them does not end: these files, and the word
-/// that they are there. None: nothing is measured yet.
+/// Writes the files of measurements that Ctrl-C has stopped, and prints that they are in the
+/// folder. No files: prints that nothing new was written.
 void leave_files(const std::vector<MemoryFile>& files, const std::filesystem::path& folder);
 
 }  // namespace plica::app

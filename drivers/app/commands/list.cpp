@@ -25,7 +25,7 @@ struct Family {
   const char* summary;
   std::vector<Choice> (*choices)();
 };
-// Extensions of files, each with what is read
+// Returns the file extensions that are read, with the description of the format each
 template <class Formats>
 std::vector<Choice> formats(const Formats& known) {
   std::vector<Choice> choices;
@@ -38,7 +38,7 @@ std::vector<Choice> unit_choices() {
   return choices;
 }
 std::vector<Choice> meshes_read() { return formats(mesh_formats); }
-// With the names of their keys
+// Returns the shapes of obstacles; each summary has the names of the keys of the shape
 std::vector<Choice> shapes_with_keys() {
   std::vector<Choice> shapes = obstacle_shapes();
   for (Choice& shape : shapes) {
@@ -81,7 +81,7 @@ void list_choices(const std::vector<Choice>& choices, bool json) {
   std::cout << (json ? array.dump(2) + "\n" : text_table(rows, "<<", ""));
 }
 
-// A key per paragraph: the path, what it may be, what it means
+// Prints all keys of a scene, one paragraph each: the path, the allowed values, the meaning
 void list_keys(bool json) {
   Json array = Json::array();
   std::string text;
@@ -141,7 +141,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
       [](const CLI::App* command) { return command->get_group() != "Planned"; });
 }
 
-// What may stand after a command: its own commands and its options
+// Returns the words that may follow a command: its subcommands and its options
 std::string words_of(const CLI::App& command) {
   std::string words;
   for (const CLI::App* own : commands_of(command)) words += own->get_name() + " ";

@@ -22,7 +22,7 @@ double scale_of(const MakeMeshArguments& arguments) {
   return scale;
 }
 
-// What is wrong with a file's mesh gets the file
+// Calls make() and adds the name of the file to an InputError that it throws
 template <class Make>
 auto placed(const std::filesystem::path& file, const Make& make) {
   try {
@@ -46,7 +46,8 @@ ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh,
   return ExitStatus::done;
 }
 
-// Gmsh is asked where it is named or installed; what it cannot do a lattice can
+// Returns a mesh of the inside of the surface, made by Gmsh. Falls back to a lattice if Gmsh is not
+// installed or makes no mesh, unless the user has asked for one of the two
 TetMesh filled(const TriangleSurface& surface, double size, const MakeMeshArguments& arguments) {
   check_cell_size(surface.vertices, size);
   double time_limit = 0;

@@ -33,7 +33,7 @@ double bound_of(const TetMesh& mesh, int tet, const MaterialOptions& material) {
                        {material.density});
 }
 
-// As a run of this mesh alone would find it
+// Finds the critical step and the element bounds, as a run of this mesh alone would
 void find_steps(MeshDescription& m, const KokkosArguments& kokkos) {
   Problem problem;
   problem.body.levels = {m.read.mesh};

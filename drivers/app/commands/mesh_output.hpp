@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-/// What the commands that write meshes have in common.
+/// Functions that the commands that write meshes share.
 namespace plica::app {
 
-/// A warning about a file for each sentence.
+/// Prints one warning about the file for each sentence.
 void warn(const std::filesystem::path& file, const std::vector<std::string>& warnings);
 
-/// Writes the files, warns of what they leave out, and says how large they are.
+/// Writes the files, warns about what their format leaves out, and prints their sizes.
 void write(const std::filesystem::path& out, const WrittenMesh& written);
 
 }  // namespace plica::app

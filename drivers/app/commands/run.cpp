@@ -39,7 +39,7 @@ void warn_of(const std::string& sentence) {
   message(coloured("warning: ", Colour::yellow) + sentence);
 }
 
-/// What is to be said of a run's step before it is taken.
+/// Returns advice about the macro step, one sentence each; it is known before the run starts.
 template <class B>
 std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& simulation,
                                      const Summary& summary) {
@@ -58,7 +58,8 @@ std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& si
   return sentences;
 }
 
-/// What it has shown. A step that was not solved may be what ended it: then the diagnosis says so.
+/// Returns warnings about what the run has shown. Without those about steps that were not solved if
+/// there is a diagnosis: it names the cause.
 template <class B>
 std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunEnd& end,
                                       const RunOutput<B>& output) {
@@ -104,7 +105,8 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   return summary;
 }
 
-// Of its element, or its vertex; numbered as the library numbers them
+// Returns the positions [m] of the corners of the diagnosis' element, or of its vertex. Element and
+// vertex are numbered as in the library, not as in the file
 template <class B>
 std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene,
                               const Simulation<B>& simulation) {
@@ -123,7 +125,7 @@ ExitStatus status_of_run(const RunEnd& end) {
   return end.status == "interrupted" ? ExitStatus::interrupted : ExitStatus::done;
 }
 
-// What tells this run from others
+// Returns a checkpoint with the data that identify this run
 Checkpoint new_checkpoint(const Scene& scene, const RunArguments& arguments) {
   Checkpoint checkpoint;
   checkpoint.scene_file = scene.file;
@@ -151,7 +153,7 @@ std::filesystem::path folder_of(const RunArguments& arguments) {
   return arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
 }
 
-// A new run deletes the one in its folder, so the user has to say so
+// Throws InputError if the folder holds a run: a new run would delete it, so the user has to ask
 void refuse_to_replace(const std::filesystem::path& folder) {
   const std::vector<std::string> found = former_run(folder);
   if (found.empty()) return;
@@ -164,7 +166,7 @@ void refuse_to_replace(const std::filesystem::path& folder) {
       folder.string(), fmt::join(found, ", "), resume));
 }
 
-// Where a run starts: at the beginning, or where the checkpoint stands
+// Returns where the run starts: at the beginning, or at the checkpoint, whose state it restores
 template <class B>
 RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint,
                 const std::filesystem::path& folder) {
@@ -180,8 +182,8 @@ RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint,
   return start;
 }
 
-// What Ctrl-C leaves where a macro step does not end: the files as they are, and the summary of the
-// last step that did
+// Writes the summary of the last complete macro step, after Ctrl-C within a step. The other files
+// stay as they are
 void leave_run(const Scene& scene, Summary summary, const RunArguments& arguments,
                const std::filesystem::path& folder) {
   summary.status = "interrupted";
@@ -200,7 +202,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
                     double set_up_time, const RunArguments& arguments, Checkpoint checkpoint,
                     InterruptWatch& watch) {
   const std::filesystem::path folder = folder_of(arguments);
-  // refused before there is a folder
+  // throws for too many steps, before the folder is made
   const long steps = steps_to_cover(scene.duration, simulation.macro_step());
   make_folder(folder);
   const FolderLock alone(folder);
@@ -224,7 +226,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   if (!arguments.quiet) announce(scene, simulation, machine, start);
   for (const std::string& sentence : step_advice(scene, simulation, latest)) warn_of(sentence);
   simulation.share_cores();
-  // on a host there is nothing to wait for
+  // free on a host: only a device has to wait between stages
   simulation.time_stages(B::on_host || arguments.time_stages);
   RunEnd end = [&] {
     Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
@@ -255,7 +257,7 @@ Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
   Tree tree = arguments.scene.empty() ? from.scene : read_tree(arguments.scene);
   for (const Override& given : arguments.overrides) set_value(tree, given.assignment, given.label);
   use_present_keys(tree);
-  tree = shared_integration(tree);  // as that of the checkpoint
+  tree = shared_integration(tree);  // the scene of the checkpoint has it too
   if (const std::string difference = first_difference(from.scene, tree, "duration");
       !difference.empty())
     throw InputError("cannot resume another scene: " + difference +

@@ -18,27 +18,28 @@
 
 namespace plica::app {
 
-/// The scene of the run to go on with: the checkpoint's own, or the given one where it says the
-/// same. Only a longer or shorter duration may be new. InputError that names what else is.
+/// Returns the scene of the run to resume: the checkpoint's scene, or an equal scene that is given.
+/// Only the duration may differ. Throws InputError that names any other difference.
 Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from);
 
-/// "every=100" macro steps, "every=100 steps", or "every=0.1s" of simulated time.
+/// Reads the interval of checkpoints: "every=100" or "every=100 steps" (macro steps), or
+/// "every=0.1s" (simulated time). Throws InputError for other text.
 Interval checkpoint_interval(const std::string& text);
 
-/// How far a run is, and how it ended.
+/// Progress of a run, and how it ended.
 struct RunEnd {
   std::string status = "completed";  ///< completed | interrupted | diverged
-  long macro_steps = 0;              ///< that passed the checks
-  double time = 0;                   ///< after them [s]
-  double wall_time = 0;              ///< of the steps and their checks [s]
+  long macro_steps = 0;              ///< number of macro steps that passed the checks
+  double time = 0;                   ///< simulated time after these steps [s]
+  double wall_time = 0;              ///< wall time of the steps and their checks [s]
   std::optional<Diagnosis> diagnosis;
 };
 
-/// probes.csv: positions and velocities of the scene's probes, by name.
+/// Writer of probes.csv: positions [m] and velocities [m/s] of the scene's probes, by name.
 template <class B>
 class Probes {
  public:
-  /// Starts the file, or goes on after its first `kept` bytes.
+  /// Starts the file, or continues it after its first `kept` bytes.
   Probes(const Scene& scene, const std::filesystem::path& file,
          std::optional<std::uint64_t> kept = {})
       : points_(scene.problem.body.levels.front(), points_of(scene.output.probes)),
@@ -62,13 +63,13 @@ class Probes {
   GrowingFile file_;
 };
 
-/// What a run writes while it goes on, each thing at its times: frames with history, probes,
-/// checkpoints.
+/// Writer of the files of a run while it goes on. It writes frames with history, probes and
+/// checkpoints, each at its own times.
 template <class B>
 class RunOutput {
  public:
-  /// `checkpoint` says which run this is; its files are cut back to where it stands where the run
-  /// is `resumed`.
+  /// Opens the files of the run that `checkpoint` describes. If the run is `resumed`, the files are
+  /// cut back to the time of the checkpoint.
   RunOutput(const Scene& scene, const Simulation<B>& simulation,
             const std::filesystem::path& folder, Checkpoint checkpoint, bool resumed)
       : simulation_(simulation),
@@ -101,16 +102,16 @@ class RunOutput {
     marks_.push_back(mark());
   }
 
-  /// After a macro step, and once before the first.
+  /// Writes what is due. To be called before the first macro step and after each one.
   void record(const RunEnd& now) {
     add(now);
     if (saving_ && saved_ < now.macro_steps && (replaces_saved_ || saving_->due(now.macro_steps)))
       save(now);
   }
 
-  /// After a macro step that is taken again: it replaces what was written of it, and of all that
-  /// came after it. What a resumed run found written stays. A checkpoint of what is replaced is
-  /// replaced at once.
+  /// Replaces what was written for this macro step and for all later ones. To be called after a
+  /// macro step that is repeated. What was on disk when a run was resumed stays. A checkpoint of a
+  /// replaced step is replaced at once.
   void record_again(const RunEnd& now) {
     if (now.macro_steps <= marks_.front().macro_steps) return;
     if (now.macro_steps <= recorded_) go_back(now.macro_steps - 1);
@@ -118,7 +119,7 @@ class RunOutput {
     if (saving_ && replaces_saved_) save(now);
   }
 
-  /// Takes what was written after so many macro steps out again.
+  /// Removes what was written after this number of macro steps.
   void go_back(long macro_steps) {
     while (marks_.size() > 1 && marks_.back().macro_steps > macro_steps) marks_.pop_back();
     const Mark& to = marks_.back();
@@ -129,15 +130,15 @@ class RunOutput {
     if (saved_ > macro_steps) saved_ = -1, replaces_saved_ = true;
   }
 
-  /// Before a step that is shorter because the run ends with it: a longer run goes on from here, so
-  /// nothing is saved later.
+  /// Saves the last checkpoint. To be called before a final step that is shorter than the others: a
+  /// run that is resumed with a longer duration must start before that step.
   void before_shorter_step(const RunEnd& now) {
     if (saving_ && saved_ != now.macro_steps) save(now);
     saving_.reset();
   }
 
-  /// After the last step. The last frame comes after the last checkpoint: a longer run has it at
-  /// its own time, if at all.
+  /// Writes the last checkpoint and the last frame. To be called after the last step. The frame
+  /// comes after the checkpoint, since a run with a longer duration may have no frame at this time.
   void finish(const RunEnd& end, double last_time) {
     if (saving_ && (replaces_saved_ || (!end.diagnosis && saved_ != end.macro_steps))) save(end);
     if (files_.last_time() < last_time) write_frame(last_time);
@@ -145,14 +146,14 @@ class RunOutput {
 
   const RunFiles& files() const { return files_; }
   const Penetrations& penetrations() const { return depth_.all(); }
-  /// What frames and the rows of history.csv have shown to be wrong, in a sentence each.
+  /// Returns what frames and the rows of history.csv have shown to be wrong, one sentence each.
   std::vector<std::string> warnings() const {
     std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(),
                                           depth_.warning()};
     std::erase(sentences, "");
     return sentences;
   }
-  /// Wall time per stage since the first start [s].
+  /// Returns the wall time of each stage since the run was first started [s].
   std::map<std::string, double> stages() const {
     std::map<std::string, double> all = stages_before_;
     for (const auto& [stage, seconds] : simulation_.stages()) all[stage] += seconds;
@@ -160,7 +161,7 @@ class RunOutput {
   }
 
  private:
-  /// How far files were after a macro step that wrote to them, and what they had shown.
+  /// Sizes of the files after a macro step that wrote to them, and what the frames had shown.
   struct Mark {
     long macro_steps;
     std::size_t frames;
@@ -178,7 +179,7 @@ class RunOutput {
   }
 
   void add(const RunEnd& now) {
-    if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
+    if (now.macro_steps <= recorded_) return;  // a resumed run starts with a step that is on disk
     if (recorded_ >= 0 && watches_energy_) work_.step(simulation_);
     recorded_ = now.macro_steps;
     const bool frame = frames_.due(now.macro_steps),
@@ -226,11 +227,11 @@ class RunOutput {
 
   const Simulation<B>& simulation_;
   const Problem& problem_;
-  std::set<std::string> warned_;  // of obstacles that hold nothing
+  std::set<std::string> warned_;  // names of obstacles that closed and grasped nothing
   std::filesystem::path folder_;
   Checkpoint checkpoint_;
   std::map<std::string, double> stages_before_;
-  long recorded_, saved_;  // the last macro steps that were; -1: none
+  long recorded_, saved_;  // the last macro step written to files, to a checkpoint; -1: none
   RunFiles files_;
   std::optional<Probes<B>> probes_;
   Schedule frames_, probing_;
@@ -240,15 +241,16 @@ class RunOutput {
   ContactDepth depth_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
-  bool replaces_saved_ = false;  // what was saved last is not the run's any more
-  std::deque<Mark> marks_;       // from the earliest state on that the run may go back to
+  bool replaces_saved_ = false;  // true: the last checkpoint is of a step that was taken back
+  std::deque<Mark> marks_;       // from the earliest state that the run may go back to
 };
 
-/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up
-/// to date. The last step is shorter where the macro step is automatic; macro steps of a given size
-/// are whole, and the last may reach beyond the duration. Calls reached(end) after the start and
-/// after macro steps, at most ten times a second and after every frame: what it keeps is what
-/// `watch` may write where a macro step takes too long after Ctrl-C.
+/// Takes macro steps to the end of the scene, or until Ctrl-C or divergence. Keeps the files on
+/// disk up to date. An automatic macro step is shortened at the end of the scene. A macro step of a
+/// given size is not shortened, so the last one may reach beyond the duration.
+///
+/// Calls reached(end) after the start, after every frame, and after macro steps at most ten times a
+/// second. It keeps the data that `watch` writes if a macro step takes too long after Ctrl-C.
 template <class B, class Reached>
 RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOutput<B>& output,
                 Progress& progress, InterruptWatch& watch, const Reached& reached) {
@@ -269,7 +271,7 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
     output.record(end);
     tell(end);
   };
-  bool replaced = false;  // in the present macro step
+  bool replaced = false;  // some files of the present macro step were replaced
   simulation.on_repeated_step([&] {
     const auto lock = watch.hold();
     RunEnd now = end;

@@ -14,8 +14,8 @@ namespace {
 constexpr std::chrono::seconds set_up_patience(2);
 constexpr std::string_view ours = "plica: ";
 
-SetUpProgress* listener = nullptr;                     // Kokkos calls plain functions
-Kokkos::Tools::Experimental::EventSet tools_of_users;  // what the user's profiling tool has set
+SetUpProgress* listener = nullptr;                     // global, as Kokkos calls plain functions
+Kokkos::Tools::Experimental::EventSet tools_of_users;  // callbacks of the user's profiling tool
 
 }  // namespace
 
@@ -81,8 +81,8 @@ void SetUpProgress::wait() {
 }
 
 KokkosSession::KokkosSession(const KokkosArguments& arguments) {
-  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too
-  // late from here.
+  // Prevents Kokkos' warning that OpenMP's threads are not bound. Binding is the user's choice, and
+  // here it is too late for it.
   setenv("OMP_PROC_BIND", "false", 0);
   std::vector<std::string> words = {"plica"};
   words.insert(words.end(), arguments.pass_through.begin(), arguments.pass_through.end());
@@ -96,7 +96,7 @@ KokkosSession::KokkosSession(const KokkosArguments& arguments) {
 }
 
 std::vector<LevelReport> in_input_numbers(std::vector<LevelReport> levels, const Scene& scene) {
-  auto numbering = scene.numbering.begin();  // of meshes; spaces may lie between them
+  auto numbering = scene.numbering.begin();  // one entry per mesh; coarse spaces have none
   for (LevelReport& level : levels) {
     if (level.tets == 0) continue;
     for (StiffElement& e : level.stiffest) e.element = input_number(numbering->tet_ids, e.element);

@@ -17,9 +17,9 @@
 
 namespace plica::app {
 
-/// Says on the standard error what a set-up is doing, once it takes more than two seconds: one line
-/// per phase, on a terminal or not. The library names its phases as regions of Kokkos' profiling
-/// interface, "plica: ...", and this listens to them. One at a time.
+/// Prints the phases of a set-up that takes more than two seconds, one line each, on the standard
+/// error. The library names its phases as regions "plica: ..." of Kokkos' profiling interface;
+/// this class listens to them. At most one object may exist at a time.
 class SetUpProgress {
  public:
   explicit SetUpProgress(bool quiet);
@@ -27,11 +27,11 @@ class SetUpProgress {
   SetUpProgress(const SetUpProgress&) = delete;
   SetUpProgress& operator=(const SetUpProgress&) = delete;
 
-  /// A phase of the application's own begins; the last one ends.
+  /// Begins a phase of the application, and ends the phase before it.
   void phase(const std::string& name);
-  /// From here on listens to the library, until finish(). Needs Kokkos.
+  /// Starts to listen to the library's phases, until finish(). Needs Kokkos.
   void listen();
-  /// The set-up is over; nothing is said any more. The time since the start [s].
+  /// Ends the messages: the set-up is over. Returns the time since the start [s].
   double finish();
 
  private:
@@ -43,7 +43,8 @@ class SetUpProgress {
   void wait();
 
   bool quiet_, listening_ = false, late_ = false, over_ = false;
-  int depth_ = 0;  // regions within a region are part of its phase
+  // nesting depth of regions; an inner region belongs to the phase of the outer one
+  int depth_ = 0;
   std::string current_;
   Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
@@ -51,7 +52,7 @@ class SetUpProgress {
   std::thread thread_;
 };
 
-/// Kokkos from here to the end of the scope.
+/// Initialises Kokkos, and finalises it at the end of the scope.
 class KokkosSession {
  public:
   explicit KokkosSession(const KokkosArguments& arguments);
@@ -60,29 +61,29 @@ class KokkosSession {
   KokkosSession& operator=(const KokkosSession&) = delete;
 };
 
-/// With elements as the mesh files number them.
+/// Returns the reports with the numbers that the elements have in the mesh files.
 std::vector<LevelReport> in_input_numbers(std::vector<LevelReport> levels, const Scene& scene);
-/// The same with the element as the mesh file numbers it.
+/// Returns the error with the number that its element has in the mesh file.
 SubstepRefused in_input_numbers(const SubstepRefused& error, const Scene& scene);
 
-/// What the scene's author should know, on the standard error.
+/// Prints the scene's warnings on the standard error.
 void warn(const Scene& scene);
 
-/// Where and how a simulation runs, for people.
+/// Hardware and settings of a simulation, to be printed.
 struct Machine {
   std::string backend;  ///< "OpenMP"
-  int threads = 0;      ///< on a GPU: how many it runs at a time
+  int threads = 0;      ///< number of threads; on a GPU: of those that run at a time
   std::string precision;
-  std::optional<CycleChoice> choice = {};  ///< of cycle auto: what it has come to
+  std::optional<CycleChoice> choice = {};  ///< choice of cycle auto; none: another cycle
 };
 
-/// What becomes of cycle auto at a set-up.
+/// Options of a set-up with cycle auto.
 struct CycleAuto {
-  bool trials = true;                      ///< false: level 0 alone, and nothing is tried
-  std::optional<CycleChoice> choice = {};  ///< that was made before: of the run that goes on
+  bool trials = true;                      ///< false: sets up level 0 alone, without trials
+  std::optional<CycleChoice> choice = {};  ///< choice of the run that is resumed
 };
 
-/// The simulation of a scene, and what cycle auto has come to.
+/// Makes the simulation of a scene. Returns what cycle auto has chosen; none for other cycles.
 template <class B>
 std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene,
                                   const CycleAuto& made) {
@@ -97,8 +98,8 @@ std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, cons
   return choice;
 }
 
-/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began
-/// [s]).
+/// Starts Kokkos, sets the simulation up, and calls action(scene, simulation, machine, seconds).
+/// The last argument is the time of the set-up, since `progress` began [s].
 template <class Action>
 auto with_simulation(const Scene& scene, const std::string& precision,
                      const KokkosArguments& kokkos, SetUpProgress& progress, const Action& action,
@@ -124,10 +125,10 @@ auto with_simulation(const Scene& scene, const std::string& precision,
   return in_precision<Exec>(precision.empty() ? "double" : precision, run);
 }
 
-/// The scene that the arguments name, with its meshes; its warnings go to the standard error.
+/// Returns the scene that the arguments name, with its meshes. Prints its warnings.
 Scene loaded(const SceneArguments& arguments, SetUpProgress& progress);
 
-/// The same for that scene.
+/// Loads the scene that the arguments name, then calls with_simulation() for it.
 template <class Action>
 auto with_simulation(const SceneArguments& arguments, const Action& action,
                      const CycleAuto& made = {}) {

@@ -33,7 +33,7 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
   make_folder(folder);
   const auto start = Clock::now();
   VerifyHead head{this_machine(), "", more.small, 0};
-  std::vector<MemoryFile> left;  // by Ctrl-C
+  std::vector<MemoryFile> left;  // to be written after Ctrl-C
   const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
   const ProgressLine line(arguments.quiet);
   const auto watch = [&](const VerifyProgress& p) {

@@ -14,7 +14,7 @@
 namespace plica::app {
 namespace {
 
-// Whether a browser was found to open it in
+// Opens the address in a browser; returns false if none was found
 bool open_in_browser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return false;
   posix_spawn_file_actions_t quiet;
@@ -40,7 +40,7 @@ void invite(const std::string& address, const ViewArguments& arguments) {
 
 ExitStatus view(const SceneArguments& arguments, const ViewArguments& more) {
   InterruptWatch watch;
-  const Port port(more.port);  // before the set-up, which may take long
+  const Port port(more.port);  // taken before the set-up, which may take long
   with_simulation(arguments,
                   [&](const Scene& scene, auto& simulation, const Machine& machine, double) {
                     watch.end_in_order();

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
 constexpr int version_written = 14;
 
-// A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
+// Returns a path as JSON: a text if it is UTF-8, else a list of the values of its bytes
 Json path_json(const std::string& path) {
   if (valid_utf8(path) == path) return path;
   return std::vector<unsigned char>(path.begin(), path.end());
@@ -84,7 +84,7 @@ std::uint64_t digest_of(const std::string& text) {
   return digest.value();
 }
 
-// The next number of the text, up to a blank or the end of the line
+// Returns the next number of the text, up to a blank or the end of the line. Moves `at` past it
 std::uint64_t next_number(const std::string& text, std::size_t& at, int base, const Where& where) {
   std::uint64_t value = 0;
   const auto [rest, error] =

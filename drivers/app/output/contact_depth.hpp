@@ -10,21 +10,21 @@
 
 namespace plica::app {
 
-/// How deep something was at the most.
+/// Largest depth during a run.
 struct Penetration {
-  double depth = 0, time = 0;  ///< [m]; when [s]
+  double depth = 0, time = 0;  ///< depth [m] and the time when it was reached [s]
 };
 
-/// The greatest depths of a run, of what it looked at.
+/// Largest depths of the surface in obstacles and bodies, in all frames of a run.
 struct Penetrations {
-  double edge = 0;                          ///< mean one of the surface [m]
-  std::vector<std::string> obstacles = {};  ///< their names
-  /// in each of them, then, where bodies touch, in a body
+  double edge = 0;                          ///< mean edge length of the surface [m]
+  std::vector<std::string> obstacles = {};  ///< names of the obstacles
+  /// largest depth in each obstacle; then, if `pairs`, the largest depth in a body
   std::vector<Penetration> deepest = {};
-  bool pairs = false;  ///< they do
+  bool pairs = false;  ///< true: bodies can touch each other or themselves
 };
 
-/// Of a surface's triangles [m].
+/// Returns the mean edge length of a surface's triangles [m]; 0: no triangles.
 inline double mean_edge_of(const TriangleSurface& surface) {
   double sum = 0;
   for (const auto& t : surface.triangles)
@@ -35,14 +35,15 @@ inline double mean_edge_of(const TriangleSurface& surface) {
   return surface.triangles.empty() ? 0 : sum / (3 * static_cast<double>(surface.triangles.size()));
 }
 
-/// Looks whether obstacles come visibly deep into the surface, or through it: contact is by
-/// penalties, and too soft a one lets a tool sink in.
+/// Detects obstacles that come visibly deep into the surface, or through it. Contact forces are
+/// penalties; if the penalty is too soft, a tool sinks into the body.
 class ContactDepth {
  public:
-  static constexpr double visible = 0.5;  ///< of a mean edge, or of the radius of a thinner tool
+  static constexpr double visible = 0.5;  ///< limit, in mean edges, or in radii of a thinner tool
 
-  /// @param edge  mean one of the finest level [m]
-  /// @param pairs bodies touch, or a body itself
+  /// @param edge    mean edge length of the finest level [m]
+  /// @param surface the embedded surface; its mean edge is reported beside the depths
+  /// @param pairs   true: bodies can touch each other or themselves
   ContactDepth(const ContactOptions& contact, double edge, const TriangleSurface& surface,
                bool pairs)
       : edge_(edge) {
@@ -54,10 +55,13 @@ class ContactDepth {
     all_.deepest.resize(all_.obstacles.size() + (pairs ? 1 : 0));
   }
 
+  /// Returns true if there is an obstacle or a pair to look at.
   bool looks() const { return !all_.deepest.empty(); }
 
-  /// At this time [s]; depths of all obstacles [m], what obstacles_inside() says, and the depth in
-  /// bodies.
+  /// Takes in the depths at this time [s].
+  /// @param depths   depth of the surface in each obstacle [m]
+  /// @param inside   result of obstacles_inside()
+  /// @param of_pairs depth of the surface in bodies [m]
   void look(double time, const std::vector<double>& depths, const std::vector<int>& inside,
             double of_pairs = 0) {
     if (inside_ < 0 && !inside.empty()) inside_ = inside.front(), inside_at_ = time;
@@ -70,12 +74,13 @@ class ContactDepth {
   }
   const Penetrations& all() const { return all_; }
 
-  /// What there is to go on from, and going on from it.
+  /// Returns the values that restore() needs in a resumed run.
   std::vector<double> save() const {
     std::vector<double> saved = {depth_, at_, obstacle_, inside_, inside_at_};
     for (const Penetration& p : all_.deepest) saved.insert(saved.end(), {p.depth, p.time});
     return saved;
   }
+  /// Restores the values that save() has returned.
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5 + 2 * all_.deepest.size()) return;
     depth_ = saved[0], at_ = saved[1], obstacle_ = saved[2], inside_ = saved[3],
@@ -84,7 +89,7 @@ class ContactDepth {
       all_.deepest[i] = {saved[5 + 2 * i], saved[6 + 2 * i]};
   }
 
-  /// A sentence where one was, else nothing.
+  /// Returns a warning if an obstacle came too deep or through the surface; empty: none did.
   std::string warning() const {
     if (inside_ >= 0)
       return text("contact: at ", number(inside_at_, 4), " s ",
@@ -114,14 +119,14 @@ class ContactDepth {
     });
     return radius;
   }
-  /// What is deeper is told of [m].
+  /// Returns the depth in an obstacle above which a warning is given [m].
   double limit(std::size_t obstacle) const { return visible * std::min(edge_, radius_[obstacle]); }
   void deepen(std::size_t i, double depth, double time) {
     if (depth > all_.deepest[i].depth) all_.deepest[i] = {depth, time};
   }
 
   Penetrations all_;
-  std::vector<double> radius_;  // of the obstacles [m]
+  std::vector<double> radius_;  // radius of each obstacle; infinite where its shape has none [m]
   double edge_, depth_ = 0, at_ = 0, obstacle_ = 0, inside_ = -1, inside_at_ = 0;
 };
 

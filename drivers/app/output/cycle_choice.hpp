@@ -7,14 +7,15 @@
 
 namespace plica::app {
 
-/// What cycle auto has come to, and the trials: a table for people, in 100 columns.
+/// Returns what cycle auto has chosen and a table of its trials, as text in 100 columns.
 std::string choice_text(const CycleChoice& choice);
 
-/// The same in a line: the keys that repeat the run, and why.
+/// Returns the choice of cycle auto in one line: cycle, reason, and the keys that repeat it.
 std::string choice_line(const CycleChoice& choice);
 
-/// For programs, and for a run that goes on; null: the scene names its cycle.
+/// Returns a choice as JSON, for programs and for resumed runs; null: the scene names its cycle.
 nlohmann::ordered_json choice_json(const std::optional<CycleChoice>& choice);
+/// Returns the choice that choice_json() has written.
 std::optional<CycleChoice> choice_of(const nlohmann::ordered_json& json);
 
 }  // namespace plica::app

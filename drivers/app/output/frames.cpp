@@ -12,8 +12,8 @@ namespace plica::app {
 
 namespace {
 
-// The numbers at the end of the file: each array is preceded by its length in bytes, and found by
-// its offset
+// Binary arrays at the end of a .vtu file. Each array is preceded by its length in bytes; its
+// header gives its offset
 class Appended {
  public:
   template <class T>
@@ -134,8 +134,8 @@ void Frames::write_collection() const {
                                                 list_));
 }
 
-// Files NAME_NUMBER.vtu with a number that is not in the list, and drafts; the collection then
-// names those that stay
+// Removes files NAME_NUMBER.vtu whose number is not in the list, and unfinished files (.part).
+// Rewrites the collection; removes it if the list is empty
 void Frames::remove_others() {
   std::error_code ignored;
   if (entries_ == 0)

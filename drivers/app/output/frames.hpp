@@ -7,7 +7,7 @@
 
 namespace plica::app {
 
-/// Triangles or tetrahedra with values at their vertices and on themselves.
+/// Triangles or tetrahedra, with values at vertices and in cells.
 struct VtuGrid {
   struct PointField {
     std::string name;
@@ -21,33 +21,34 @@ struct VtuGrid {
     std::string name;
     std::vector<int> values;
   };
-  std::vector<Point> points;      ///< [m]
-  std::vector<int> connectivity;  ///< the cells' vertices, one cell after the other
+  std::vector<Point> points;      ///< positions of the vertices [m]
+  std::vector<int> connectivity;  ///< vertices of the cells, one cell after the other
   int vertices_per_cell = 3;      ///< 3: triangles, 4: tetrahedra
   std::vector<PointField> point_fields;
   std::vector<ScalarField> point_scalars;
   std::vector<CellField> cell_fields;
   std::vector<ScalarField> cell_scalars;
   std::vector<PointField> cell_vectors;
-  double time = 0;  ///< [s]
+  double time = 0;  ///< simulated time [s]
 };
 
-/// The grid as VTK's XML file (.vtu), its numbers appended in raw binary, double precision.
-/// Source: the VTK file formats,
+/// Returns the grid as a VTK XML file (.vtu), with arrays appended as raw binary in double
+/// precision. Source: the VTK file formats,
 /// https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 std::string vtu_text(const VtuGrid& grid);
 
-/// A film: one file per point in time in the folder `frames`, and beside it the collection that
-/// viewers open. After every frame the collection on disk names the frames that are there.
+/// Writer of an animation: one .vtu file per frame in the folder `frames`, and a collection (.pvd).
+/// The collection is beside that folder; viewers open it. After each frame the collection on disk
+/// names all frames that exist.
 class Frames {
  public:
-  /// Writes folder/frames/NAME_0000.vtu ... and folder/NAME.pvd, or another COLLECTION. The first
-  /// frames, at these `times`, are there already; those of a former run behind them are removed.
-  /// InputError where one is missing.
+  /// Prepares to write folder/frames/NAME_0000.vtu ... and folder/COLLECTION. The first frames, at
+  /// these `times` [s], exist already; later frames of a former run are removed. Throws InputError
+  /// if one of the first frames is missing.
   Frames(std::filesystem::path folder, std::string name, std::string collection,
          const std::vector<double>& times = {});
   void write(const VtuGrid& grid);
-  void cut_back(std::size_t count);  ///< to the first so many: what comes next replaces the others
+  void cut_back(std::size_t count);  ///< keeps the first `count` frames and removes the others
   std::size_t count() const { return entries_; }
   /// Waits until the frames since the last call are on the disk.
   void sync();

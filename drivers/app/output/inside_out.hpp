@@ -10,17 +10,18 @@
 
 namespace plica::app {
 
-/// Elements that the frames of a run have shown inside out, J <= 0, where the material lets them be
-/// so and nobody asked for it.
+/// Detects inverted elements (J <= 0) in the frames of a run. It looks only where the material
+/// allows inversion and the scene does not ask for it.
 class InsideOut {
  public:
   explicit InsideOut(const MaterialOptions& material)
       : material_(material.model),
         looks_(allows_inversion(material) && !material.allow_inversion) {}
 
-  /// Whether there is anything to look for.
+  /// Returns true if frames have to be looked at.
   bool looks() const { return looks_; }
 
+  /// Takes in the volume ratios J of the frame at this time [s].
   void look(double time, const ElementFields& fields) {
     const auto count =
         static_cast<double>(std::ranges::count_if(fields.J, [](double J) { return J <= 0; }));
@@ -32,17 +33,18 @@ class InsideOut {
       per_vertex_ = fields.per_vertex;
   }
 
-  /// What there is to go on from, and going on from it.
+  /// Returns the values that restore() needs in a resumed run.
   std::vector<double> save() const {
     return {most_, all_, first_, at_, least_, per_vertex_ ? 1.0 : 0.0};
   }
+  /// Restores the values that save() has returned.
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 6) return;
     most_ = saved[0], all_ = saved[1], first_ = saved[2], at_ = saved[3], least_ = saved[4],
     per_vertex_ = saved[5] > 0;
   }
 
-  /// A sentence where there were any, else nothing.
+  /// Returns a warning if there were inverted elements; empty: there were none.
   std::string warning() const {
     if (most_ == 0) return {};
     return text(

@@ -50,7 +50,7 @@ Json json_of(const T& value) {
   return value;
 }
 
-// Walks the table of a shape and writes its values
+// Visitor of the table of a shape that writes its values
 struct ValueWriter {
   Json values = Json::object();
   template <class T, class Kind>

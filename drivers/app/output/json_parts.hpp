@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-/// What several results have in common: rows, materials, obstacles, the machine.
+/// JSON and text of what several results share: rows, materials, obstacles, the machine.
 namespace plica::app {
 
-/// JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8, as names
-/// of files may have them, become U+FFFD.
+/// Returns JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8
+/// become U+FFFD; names of files may have such bytes.
 inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// A row's value: what does not apply is null, also a text that is empty.
+/// Returns a value of a row as JSON. A missing value or an empty text becomes null: does not apply.
 template <class T>
 nlohmann::ordered_json row_value(const T& value) {
   return value;
@@ -28,7 +28,7 @@ inline nlohmann::ordered_json row_value(const std::optional<double>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
-/// The same in a table: nothing for null, quoted where it has to be (RFC 4180).
+/// Returns a value as a field of a CSV table: empty for null, quoted if needed (RFC 4180).
 inline std::string csv_field(const nlohmann::ordered_json& value) {
   if (value.is_null()) return {};
   if (!value.is_string()) return value.dump();
@@ -39,7 +39,7 @@ inline std::string csv_field(const nlohmann::ordered_json& value) {
   return '"' + text + '"';
 }
 
-/// Objects with the same members as a table, their names above it.
+/// Returns objects with equal members as a CSV table, with the names of the members above it.
 inline std::string csv_table(const nlohmann::ordered_json& rows) {
   std::string text;
   const auto add_line = [&text](const nlohmann::ordered_json& row, bool names) {
@@ -55,31 +55,32 @@ inline std::string csv_table(const nlohmann::ordered_json& rows) {
   return text;
 }
 
-/// A material of this kind: "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000
-/// kg/m^3". The parameters are those that the material declares.
+/// Returns a material and the parameters that it declares as text: "neo_hookean, young_modulus 20
+/// kPa, poisson_ratio 0.4, density 1000 kg/m^3".
 std::string material_text(const MaterialInfo& info, const MaterialOptions& material);
 
-/// The same: {"model", each parameter by its name, "density"}, in SI units.
+/// Returns a material as JSON: {"model", each parameter by its name, "density"}, in SI units.
 nlohmann::ordered_json material_json(const MaterialInfo& info, const MaterialOptions& material);
 
-/// The obstacles, so that a picture can show what was hit. Of a surface its box and counts.
+/// Returns shapes and motions of the obstacles as JSON, so that a page can draw them. A
+/// triangulated surface is given by its bounding box and its number of triangles.
 nlohmann::ordered_json obstacles_json(const ContactOptions& contact);
 
-/// What measurements were made on.
+/// Machine on which measurements were made.
 struct StudyMachine {
   std::string cpu;
   int cores = 0;
   std::string backend;
-  int threads = 0;  ///< at most
+  int threads = 0;  ///< maximum number of threads
 };
 
-/// This one. Needs Kokkos.
+/// Returns the machine on which the program runs. Needs Kokkos.
 StudyMachine this_machine();
 
-/// plica --version: the program, Kokkos and its back ends, the compiler, the commit.
+/// Returns the text of `plica --version`: version, Kokkos and its back ends, compiler, commit.
 std::string version_text();
 
-/// With the program that measured.
+/// Returns the machine as JSON, with the compiler and version of the program that measured.
 nlohmann::ordered_json machine_json(const StudyMachine& machine);
 
 }  // namespace plica::app

@@ -6,7 +6,7 @@
 
 namespace plica::app {
 
-/// The most memory that this process has had at a time [bytes].
+/// Returns the maximum memory that this process has had at a time [bytes].
 inline std::size_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -11,14 +11,15 @@
 #include <plica/drivers/cycles/plan_steps.hpp>
 #include <plica/drivers/elastic/elements.hpp>
 
-// What `plica explain` prints.
+// Output of `plica explain`.
 namespace plica::app {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-// "nodal (stabilisation 0.4), linear; about 8 across the thickness of level 0"
+// Returns the elements of the levels: "nodal (stabilisation 0.4), linear; about 8 across the
+// thickness of level 0"
 std::string elements_text(const Body& body, const Plan& plan) {
   std::vector<Lame<double>> lame;
   const MaterialInfo& material = *find_material(body.material.model);
@@ -62,7 +63,7 @@ std::string head_text(const Scene& scene, const Plan& plan) {
              "<<");
 }
 
-// What cycle him does with the levels
+// Returns what cycle him does with the levels, as text
 std::string inertia_text(const Scene& scene, const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {
       {"level", "inertia of its own detail", "limit of that detail", "macro step / limit"}};
@@ -85,8 +86,8 @@ std::string inertia_text(const Scene& scene, const Plan& plan) {
          advice;
 }
 
-// The elements that set a level's critical step, where they are out of the ordinary: below half the
-// median
+// Returns the table of elements whose own step is below half the median of their level. They limit
+// the critical step of the level
 std::string slivers_text(const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {
       {"level", "element", "edge / height", "step by itself", "of the median", "region"}};
@@ -100,7 +101,7 @@ std::string slivers_text(const Plan& plan) {
   return "\nElements that limit the step, at most ten of a level\n" + text_table(rows, ">>>>><");
 }
 
-// Coarse levels that were made of the finest mesh
+// Returns the table of coarse spaces that were made of the finest mesh
 std::string spaces_text(const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {{"level", "points", "spacing", "weights per row"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
@@ -114,7 +115,7 @@ std::string spaces_text(const Plan& plan) {
   return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0\n" + text_table(rows, ">>>>");
 }
 
-// Two tables: what a level is, then what it does in a macro step
+// Returns two tables: the sizes of the levels, then their work in a macro step
 std::string levels_text(const Scene& scene, const Plan& plan) {
   std::vector<std::vector<std::string>> meshes = {
       {"level", "vertices", "tetrahedra", "mean edge", "mass", "critical step", "element bound"}};

@@ -173,7 +173,7 @@ Body with_regions(Body body) {
   return body;
 }
 
-// As a field of the mesh, for frames: at rest
+// Adds the fibre directions at rest to a level's mesh, as a field that frames show
 void add_fibres(Body& body, std::size_t level) {
   std::vector<Point> directions;
   for (const FibreAxes& axes : element_fibres(body, body.levels[level], static_cast<int>(level)))
@@ -193,8 +193,8 @@ std::vector<int> written_levels(const Scene& scene) {
   return levels;
 }
 
-// The checkpoint is removed first: without its files it is worthless. A page is removed with the
-// run that it shows; where there is none, it is of something else
+// Removes the files of a former run. The checkpoint goes first, since without the other files it is
+// useless. A page report.html is removed only with a run, since otherwise it shows something else
 const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   const bool has_run = !former_run(folder).empty();
@@ -314,7 +314,8 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
   fields.emplace_back("von_mises", in_input_order(elements.von_mises, order));
   fields.emplace_back("J", in_input_order(elements.J, order));
   if (has_fibres(body_)) grid.cell_vectors = {{fibre_field, mesh.tet_vectors.at(fibre_field)}};
-  const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions
+  // numbers are written with regions, since a reader would take numbers alone for regions
+  const bool has_numbers = !numbering.tet_ids.empty();
   if (!mesh.region.empty() || has_numbers)
     grid.cell_fields.push_back(
         {"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});

@@ -12,31 +12,32 @@
 
 namespace plica::app {
 
-/// The tetrahedra of one level at one point in time.
+/// State of the tetrahedra of one level at one time.
 struct VolumeSnapshot {
-  int level = 0;
-  std::vector<Point> positions, velocities;  ///< [m, m/s]
+  int level = 0;                             ///< number of the level; 0: the finest
+  std::vector<Point> positions, velocities;  ///< state of the vertices [m, m/s]
   ElementFields elements;
 };
 
-/// The state of a run at one point in time, on the host, numbered as the scene's meshes are.
+/// State of a run at one time, on the host, in the order of the scene's meshes.
 struct Snapshot {
-  double time = 0;                                 ///< [s]
-  std::vector<Point> positions, velocities;        ///< of level 0's vertices [m, m/s]
-  std::vector<Point> surface, surface_velocities;  ///< of the embedded surface's; empty without one
-  std::vector<VolumeSnapshot> volumes;             ///< of the levels that are written
+  double time = 0;                           ///< simulated time [s]
+  std::vector<Point> positions, velocities;  ///< state of level 0's vertices [m, m/s]
+  /// state of the embedded surface's points; empty: there is none [m, m/s]
+  std::vector<Point> surface, surface_velocities;
+  std::vector<VolumeSnapshot> volumes;  ///< state of the levels that are written
   Energies energies;
-  std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
-  std::vector<ToolState> tools;  ///< obstacles with mass
-  std::vector<HeldBy> held;      ///< by obstacles that can hold points
-  std::vector<CavityState> cavities;
-  int torn = 0;                  ///< attached points
-  long step_halvings = 0;        ///< of macro steps so far
-  double friction_work = 0;      ///< so far [J]
-  std::vector<double> slipping;  ///< of what touches each obstacle, the part that slips
+  std::vector<Wrench> wrenches;       ///< forces and torques over the last macro step
+  std::vector<ToolState> tools;       ///< poses of obstacles with mass
+  std::vector<HeldBy> held;           ///< grasped points of each obstacle that can grasp
+  std::vector<CavityState> cavities;  ///< volume and pressure of each cavity
+  int torn = 0;                       ///< number of attached points that are torn
+  long step_halvings = 0;             ///< halvings of macro steps so far
+  double friction_work = 0;           ///< work of friction so far [J]
+  std::vector<double> slipping;       ///< part of the contacts of each obstacle that slips
 };
 
-/// Of macro steps so far; 0 where those that fail are not halved.
+/// Returns how often macro steps were halved so far; 0 if steps that fail are not halved.
 template <class B>
 long halvings_of(const Simulation<B>& simulation) {
   const auto counters = simulation.counters();
@@ -44,9 +45,10 @@ long halvings_of(const Simulation<B>& simulation) {
   return found == counters.end() ? 0 : found->second;
 }
 
-/// Whether something rubs: an obstacle, or bodies.
+/// Returns true if an obstacle or the contact between bodies has friction.
 bool has_friction(const ContactOptions& contact);
 
+/// Returns the present state of a simulation, with the levels that `volumes` names.
 template <class B>
 Snapshot take_snapshot(const Simulation<B>& simulation, double time,
                        const std::vector<int>& volumes) {
@@ -71,22 +73,28 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time,
   return snapshot;
 }
 
-/// The obstacles that closed by their `grasp`, at least a macro step [s] ago, and hold nothing.
+/// Returns the names of the obstacles that have closed by their `grasp` and grasped no point. An
+/// obstacle counts when it has been closed for more than one macro step [s].
 std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now,
                                       double macro_step);
 
-/// Mass at each vertex of a level: a quarter of every tetrahedron around it. [kg]
+/// Returns the mass at each vertex of a level [kg]: a quarter of every tetrahedron around it.
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
-/// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad
-/// macro steps are retried, how often one was halved so far; what each of wrench_names() does or
-/// feels, over the macro step that ends there; where obstacles with mass are; how many points those
-/// hold that can; volume and pressure in cavities; how often implicit steps were halved so far;
-/// with friction its work so far, and of each obstacle that rubs the part of what touches it that
-/// slips; how many attached points are torn.
+/// Writer of history.csv: one row per output time. The columns are
+///   - energies, centre of mass and speeds of level 0
+///   - force and torque of each of wrench_names(), over the macro step that ends at this time
+///   - displacement and velocity of obstacles with mass; with inertia, how they turn, too
+///   - number of grasped points of each obstacle that can grasp
+///   - volume and pressure of cavities
+///   - number of step halvings so far, if macro steps that fail are halved
+///   - work of friction so far, and for each obstacle with friction the part of its contacts that
+///     slips
+///   - number of attached points that are torn
 class History {
  public:
-  /// Starts the file, or goes on after its first `kept` bytes.
+  /// Starts the file, or continues it after its first `kept` bytes.
+  /// @param masses  mass at each vertex of level 0 [kg]
   History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
           std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
@@ -97,52 +105,53 @@ class History {
   GrowingFile file_;
   std::vector<double> masses_;
   bool tears_, halves_, rubs_;
-  std::vector<std::size_t> rubbing_;  // obstacles with friction
+  std::vector<std::size_t> rubbing_;  // numbers of the obstacles with friction
 };
 
-/// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no
-/// run.
+/// Returns the names of the files of a run that are in a folder, the checkpoint first. Empty: the
+/// folder holds no run.
 std::vector<std::string> former_run(const std::filesystem::path& folder);
 
-/// How far a run's files are: what a checkpoint remembers of them.
+/// Sizes of a run's files, as a checkpoint stores them.
 struct FilesMark {
-  std::vector<double> frame_times;  ///< [s]
+  std::vector<double> frame_times;  ///< times of the frames [s]
   std::uint64_t history_bytes = 0, probe_bytes = 0;
 };
 
-/// What a run leaves in its folder while it goes on: frames and history. A former run's files there
-/// give way, or are cut back to the mark of the checkpoint from which this run goes on.
+/// Writer of the frames and the history of a run, in the run's folder.
 class RunFiles {
  public:
+  /// Removes the files of a former run in the folder. With `from`, cuts them back to that mark of a
+  /// checkpoint instead.
   RunFiles(const Scene& scene, const std::filesystem::path& folder,
            const std::optional<FilesMark>& from = {});
-  /// Writes the volumes that volumes() names, and all else.
+  /// Writes a frame of the surface, one of each level of volumes(), and a row of the history.
   void write(const Snapshot& snapshot);
-  const std::vector<int>& volumes() const { return volume_levels_; }
+  const std::vector<int>& volumes() const { return volume_levels_; }  ///< levels that are written
   std::size_t frames() const { return frame_times_.size(); }
-  /// of what is on disk [s]
+  /// Returns the time of the last frame on disk [s].
   double last_time() const { return frame_times_.empty() ? 0 : frame_times_.back(); }
   FilesMark mark() const { return {frame_times_, history_.file().size(), 0}; }
   std::uint64_t history_bytes() const { return history_.file().size(); }
-  /// To the first so many frames, and so much of the history: what comes next replaces the rest.
+  /// Keeps the first `frames` frames and `history_bytes` of the history, and removes the rest.
   void cut_back(std::size_t frames, std::uint64_t history_bytes);
-  /// Waits until all of it is on the disk.
+  /// Waits until all files are on disk.
   void sync();
 
  private:
-  struct Volume {  // a written level: what stays the same, in input order
+  struct Volume {  // constant data of a level that is written, in input order
     TetMesh mesh;
     std::vector<double> mass;
   };
   VtuGrid surface_grid(const Snapshot& snapshot) const;
   VtuGrid volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const;
 
-  Body body_;                                // with the regions that are selected
-  const std::vector<Numbering>& numbering_;  // of its levels
+  Body body_;                                // the body, with the regions that the scene selects
+  const std::vector<Numbering>& numbering_;  // numbering of each level
   Point placement_;
-  TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest
-  std::vector<int> skin_vertex_;  // of that boundary: its vertices' numbers in level 0
-  std::vector<int> skin_body_;    // of its triangles the body, where there are several
+  TriangleSurface skin_;          // the embedded surface, or the boundary of level 0, at rest
+  std::vector<int> skin_vertex_;  // numbers in level 0 of the boundary's vertices
+  std::vector<int> skin_body_;    // body of each triangle; empty: one body
   std::vector<int> volume_levels_;
   std::vector<Volume> volumes_;
   std::vector<double> frame_times_;
@@ -151,11 +160,14 @@ class RunFiles {
   History history_;
 };
 
+/// Returns the names of the probes, in alphabetical order.
 std::vector<std::string> names_of(const std::map<std::string, Point>& probes);
+/// Returns the points of the probes at rest [m], in alphabetical order of their names.
 std::vector<Point> points_of(const std::map<std::string, Point>& probes);
 
-/// "time,tip_x,tip_y,tip_z,tip_vx,tip_vy,tip_vz" and a row of it.
+/// Returns the head of probes.csv: "time,tip_x,tip_y,tip_z,tip_vx,tip_vy,tip_vz".
 std::string probe_head(const std::vector<std::string>& names);
+/// Returns a row of probes.csv: time [s], positions [m] and velocities [m/s] of the probes.
 std::string probe_row(double time, const std::vector<Point>& positions,
                       const std::vector<Point>& velocities);
 

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// At the state with which the scene's own run ended, at the smallest macro step that did not do
+// Adds the state with which the scene's run failed, at the smallest macro step that was too long
 void add_failure(Json& json, const SceneLimit& scene) {
   json["scene_failed_step"] = row_value(scene.failed_step);
   json["scene_failed_time"] = scene.failed_step ? Json(scene.failed_time) : Json(nullptr);

@@ -7,24 +7,24 @@
 
 namespace plica::app {
 
-/// The texts of stability.json and stability.csv.
+/// Contents of stability.json and stability.csv.
 struct StabilityTexts {
   std::string json, csv;
 };
 
-/// Of a scene's methods; status: completed | interrupted | unfinished.
+/// Returns the files' contents for a scene's methods; status: completed | interrupted | unfinished.
 StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine,
                                const StabilityResult& result, const std::string& status);
 
-/// Of the matrix.
+/// Returns the files' contents for the matrix; status: completed | interrupted | unfinished.
 StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result,
                                const std::string& status);
 
-/// What was found, in words.
+/// Returns the results for a scene's methods as text; the files are in `folder`.
 std::string stability_text(const Scene& scene, const StabilityResult& result,
                            const std::string& folder);
 
-/// How the matrix ended: counts, and every row that is wrong.
+/// Returns the results of the matrix as text: counts, and every row that is wrong.
 std::string stability_text(const MatrixResult& result, const std::string& folder);
 
 }  // namespace plica::app

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Why the fastest row within an error is that one
+// Returns why a row is the fastest one within an allowed error
 std::string reason_of(const StudyRow& row, const std::vector<StudyRow>& rows) {
   std::string text;
   if (row.total_error)
@@ -40,7 +40,7 @@ std::string reason_of(const StudyRow& row, const std::vector<StudyRow>& rows) {
                      percent(*best->judged()));
 }
 
-// "coarse/1/rk4" in parts
+// Splits "coarse/1/rk4" at the slashes
 std::vector<std::string> parts_of(const std::string& method) {
   std::vector<std::string> parts;
   std::istringstream stream(method);
@@ -48,7 +48,7 @@ std::vector<std::string> parts_of(const std::string& method) {
   return parts;
 }
 
-// null: it cannot be said by settings alone
+// Returns the settings that make a run of the scene this row; null: settings alone cannot
 Json settings_of(const StudyRow& row, const std::vector<Json>& levels) {
   const std::vector<std::string> parts = parts_of(row.method);
   Json settings = Json::array();
@@ -88,9 +88,8 @@ std::vector<StudyChoice> choices_of(const StudyResult& result) {
   std::vector<StudyChoice> choices;
   ErrorClasses::for_each([&](auto one) {
     StudyChoice choice{decltype(one)::name, decltype(one)::error, nullptr, {}};
-    const double own =
-        result.reference
-            .own_error;  // counted in: the error is within the class wherever the reference is
+    // the reference's own error counts, so that the row is within the class in the worst case too
+    const double own = result.reference.own_error;
     choice.row = fastest_below(result.rows, choice.allowed - own);
     choice.reason = choice.row ? reason_of(*choice.row, result.rows) : "none";
     if (!choice.row && own > 0.1 * choice.allowed)

@@ -10,28 +10,32 @@
 
 namespace plica::app {
 
-/// What of a study to take for an error class: its fastest row whose error, with that of the
-/// reference, is below what the class allows. Elements, mesh, stepper, explicit or implicit, and
-/// step are chosen at once, by total error where the study is against the truth.
+/// Row of a study that is chosen for an error class. It is the fastest row whose error, together
+/// with that of the reference, is below the allowed one. The choice fixes elements, mesh, stepper
+/// (explicit or implicit) and step at once. If the study is against the truth, it is made by total
+/// error.
 struct StudyChoice {
   std::string error_class;
-  double allowed = 0;
-  const StudyRow* row = nullptr;  ///< none: no row is as good
-  std::string reason;             ///< why that one, in sentences
+  double allowed = 0;             ///< error that the class allows, as a fraction
+  const StudyRow* row = nullptr;  ///< the chosen row; null: no row is as good
+  std::string reason;             ///< why this row was chosen, in sentences
 };
+/// Returns the choice for each error class.
 std::vector<StudyChoice> choices_of(const StudyResult& result);
 
-/// The entries of body.levels as a scene has them; empty where they are no list.
+/// Returns the entries of a scene's body.levels as JSON; empty if body.levels is no list.
 std::vector<nlohmann::ordered_json> level_entries(const Tree& scene);
 
-/// In study.json; `levels`: see level_entries(). Each has the settings that make a run of the scene
-/// that row, as --set takes them; null where there are none, for variants, and for coarser meshes
-/// that have no entry.
+/// Returns the choices as study.json has them. Each has the settings, as --set takes them, with
+/// which a run of the scene is the chosen row. They are null for variants, for coarser meshes
+/// without an entry in `levels`, and where no row was chosen.
+/// @param levels  see level_entries()
 nlohmann::ordered_json choices_json(const StudyResult& result,
                                     const std::vector<nlohmann::ordered_json>& levels);
 
-/// Those of the study in a folder for the error class that the scene asks for. InputError where
-/// there is no such study, it is of another scene, or has found nothing within that class.
+/// Returns the settings that the study in a folder has chosen for the scene's error class. Throws
+/// InputError if there is no study, if it is of another scene, or if it has no choice for the
+/// class.
 std::vector<Override> settings_of_study(const std::filesystem::path& folder,
                                         const std::filesystem::path& scene,
                                         const std::vector<Override>& overrides);

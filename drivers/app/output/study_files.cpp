@@ -125,7 +125,7 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
 
 namespace {
 
-// What a scene says but for some keys of its top level
+// Returns the scene as JSON, without some keys of the top level
 std::string said_without(const Tree& source, const std::vector<std::string>& keys) {
   Tree tree = source;
   std::erase_if(tree.items,
@@ -139,7 +139,7 @@ void add_tools(Digest& digest, const Problem& problem) {
       for (const Point& p : tool->surface.vertices) digest.add(p.data(), 3 * sizeof(double));
 }
 
-// What the motion of the finest level alone depends on
+// Returns a digest of everything that the motion of the finest level alone depends on
 std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study", "integration"}));
@@ -158,7 +158,7 @@ std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   return digest.value();
 }
 
-// What rows depend on beside that: times are those of one program on one machine
+// Returns a digest of everything that the rows depend on. Times depend on program and machine too
 std::uint64_t study_digest(const Scene& scene, const StudyOptions& o, const StudyMachine& machine,
                            std::uint64_t reference) {
   Digest digest;

@@ -8,32 +8,36 @@
 
 namespace plica::app {
 
-/// reference.bin: a line of JSON with the digest of what the reference is of, the digest of what
-/// follows, its numbers and sizes; then the states, as doubles.
+/// Returns the contents of reference.bin: a line of JSON, then the states as doubles. The line has
+/// the digest of the problem, the digest of the states, and numbers and sizes of the reference.
+/// @param digest  digest of the problem and options that the reference belongs to
 std::string reference_bytes(const StudyReference& reference, std::uint64_t digest);
 
-/// None where the bytes are no such file, are damaged, or are of another problem.
+/// Reads the contents of reference.bin. Returns none if the bytes are no such file, are damaged, or
+/// have another digest of the problem.
 std::optional<StudyReference> parse_reference(const std::string& bytes, std::uint64_t digest);
 
-/// A study's files: study.json, study.csv, each replaced as a whole, and reference.bin, what errors
-/// are measured against.
+/// Files of a study: study.json, study.csv and reference.bin. The first two are replaced as a
+/// whole; reference.bin has the states against which errors are measured.
 class StudyFiles {
  public:
-  /// Needs Kokkos for what it says of the machine.
+  /// Prepares the files in `folder`. Needs Kokkos, to describe the machine.
   StudyFiles(const Scene& scene, const StudyOptions& options, const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
   const StudyMachine& machine() const { return machine_; }
 
-  /// The rows in the folder, where they are of the same scene, options, program and machine, and
-  /// the reference, where it is of the same problem.
+  /// Returns the results in the folder that still apply. The reference applies if it is of this
+  /// problem, the rows if they are of this scene, options, program and machine.
   StudyResult read() const;
-  /// Whether it has the rows of another study.
+  /// Returns true if the folder has rows of another study.
   bool holds_another() const;
-  /// study.json and study.csv; status: completed | interrupted | unfinished. `stopped`: the case
-  /// that was interrupted.
+  /// Returns study.json and study.csv, to be written.
+  /// @param status   completed | interrupted | unfinished
+  /// @param stopped  key of the case that was interrupted; empty: none
   std::vector<MemoryFile> texts(const StudyResult& result, const std::string& status,
                                 const std::string& stopped = {}) const;
+  /// Writes reference.bin.
   void write_reference(const StudyReference& reference) const;
 
  private:

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// A row's members under their names in the file, once, for writing and for reading
+// Visits the members of a row with their names in study.json; used for writing and reading
 template <class Row, class Visit>
 void each_member(Row& row, const Visit& visit) {
   visit("method", row.method);
@@ -56,7 +56,7 @@ using Probes = std::map<std::string, std::optional<double>>;
 
 using app::row_value;
 Json row_value(const Probes& probes) {
-  Json json;  // null where there are none
+  Json json;  // null: there are no probes
   for (const auto& [name, value] : probes) json[name] = row_value(value);
   return json;
 }
@@ -169,7 +169,8 @@ namespace {
 
 constexpr std::size_t table_width = text_width;
 
-// With what tells it from other rows of its name
+// Returns a row's label and everything in which the study's rows differ: element, precision,
+// threads
 std::string name_of(const StudyRow& row, const StudyResult& result) {
   const auto differs = [&](auto member) {
     return std::ranges::any_of(result.rows,
@@ -230,7 +231,8 @@ std::string pareto_text(const StudyResult& result) {
   return text_table(table, "<>>>>>>>>>");
 }
 
-// Of the linearised cycles, all rows: the amplitude's logarithm per simulated second
+// Returns how small motions about rest grow in all rows of linearised cycles. Growth is the change
+// of the logarithm of the amplitude per simulated second
 std::string growth_text(const StudyResult& result) {
   const StudyRow *fastest = nullptr, *stable = nullptr;
   long found = 0, growing = 0;

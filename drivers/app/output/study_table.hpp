@@ -6,34 +6,35 @@
 
 namespace plica::app {
 
-/// What a study was of.
+/// Scene and options of a study, as study.json states them.
 struct StudyHead {
   std::string scene, name;
-  double duration = 0;  ///< [s]
-  int samples = 0;
-  std::vector<std::size_t> tets;               ///< of each level
-  std::string digest;                          ///< studies with another are not gone on with
+  double duration = 0;                         ///< simulated time [s]
+  int samples = 0;                             ///< number of times at which states are compared
+  std::vector<std::size_t> tets;               ///< number of tetrahedra of each level
+  std::string digest;                          ///< a study with another digest is not continued
   std::vector<nlohmann::ordered_json> levels;  ///< see level_entries()
 };
 
-/// study.json; status: completed | interrupted | unfinished. `stopped`: the case that was
-/// interrupted; empty: none.
+/// Returns the contents of study.json.
+/// @param status   completed | interrupted | unfinished
+/// @param stopped  key of the case that was interrupted; empty: none
 std::string study_json(const StudyHead& head, const StudyMachine& machine,
                        const StudyResult& result, const std::string& status,
                        const std::string& stopped = {});
 
-/// The rows of such a text; none where its digest is another, or it is none.
+/// Returns the rows in the contents of study.json; none if its digest differs or it is damaged.
 std::vector<StudyRow> rows_of_study(const std::string& json, const std::string& digest);
 
-/// Whether such a text has rows with another digest.
+/// Returns true if the contents of study.json have rows and another digest.
 bool holds_other_rows(const std::string& json, const std::string& digest);
 
-/// study.csv: the rows, the same names as columns; what does not apply is empty.
+/// Returns the contents of study.csv: columns named as in study.json; empty: does not apply.
 std::string study_csv(const std::vector<StudyRow>& rows);
 
-/// What a study found, for people: how good the reference is, the Pareto front, the fastest method
-/// under 5, 1 and 0.1 % error, where a coarser mesh alone is enough, and what did not come to an
-/// end or was left out.
+/// Returns the results of a study as text: how good the reference is and the Pareto front. Then the
+/// fastest method under 5, 1 and 0.1 % error, and whether a coarser mesh alone is enough for it.
+/// Then the cases that did not complete or were left out.
 std::string study_text(const Scene& scene, const StudyResult& result, const std::string& folder);
 
 }  // namespace plica::app

@@ -24,7 +24,7 @@ std::string cycle_name(const Scene& scene, const std::optional<CycleChoice>& cho
 }
 
 long steps_to_cover(double duration, double macro_step) {
-  constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
+  constexpr double rounding = 1e-9;  // part of a step that is ignored: 3 s are 100 steps of 30 ms
   constexpr double most = 1e12;
   const double steps = std::ceil(duration / macro_step - rounding);
   if (!(steps <= most))
@@ -36,7 +36,7 @@ long steps_to_cover(double duration, double macro_step) {
 
 namespace {
 
-constexpr double notable_wait = 0.1;  // of the threads' time
+constexpr double notable_wait = 0.1;  // part of the threads' time
 
 Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const std::vector<Point>& corners) {
   if (!diagnosis) return nullptr;
@@ -77,7 +77,7 @@ Json tools_json(const std::vector<ToolState>& tools) {
   return all;
 }
 
-// Of a body's surface in an obstacle, or in a body: null where it did not come inside
+// Returns a largest depth of a surface in an obstacle or a body; null: it did not come inside
 Json penetration_json(const Penetration& p, double edge) {
   if (!(p.depth > 0)) return nullptr;
   return {{"depth", p.depth},
@@ -197,7 +197,8 @@ std::string summary_json(const Scene& scene, const Summary& s,
   return json_text(json);
 }
 
-// "20 linear systems, 211 iterations each, 0 not solved"; empty: none
+// Returns how linear systems were solved: "20 linear systems, 211 iterations each, 0 not solved".
+// Empty: there were none
 static std::string solves_text(std::map<std::string, long> count) {
   if (count["linear_solves"] == 0) return "";
   const std::string text = fmt::format(
@@ -210,8 +211,8 @@ static std::string solves_text(std::map<std::string, long> count) {
                             count["newton_misses"]);
 }
 
-// "cut 4 times as the body stiffened, given back 2 times, at the end 2 in a macro step"; empty:
-// never cut
+// Returns how often sub-steps were cut; empty: never. Example: "cut 4 times as the body stiffened,
+// given back 2 times, at the end 2 in a macro step"
 static std::string cuts_text(std::map<std::string, long> count) {
   const long cuts = cuts_of(count), back = count["substeps_regained"], now = count["him_substeps"],
              level_alone = count["him_explicit_steps"];
@@ -225,7 +226,8 @@ static std::string cuts_text(std::map<std::string, long> count) {
   return text;
 }
 
-// "halved 5 times where they failed (step_halvings of history.csv)"; empty: never
+// Returns how often macro steps were halved: "halved 5 times where they failed (step_halvings of
+// history.csv)". Empty: never
 static std::string halvings_text(const std::map<std::string, long>& count) {
   const auto found = count.find("step_halvings");
   if (found == count.end() || found->second == 0) return "";
@@ -234,7 +236,7 @@ static std::string halvings_text(const std::map<std::string, long>& count) {
 }
 
 std::string unsolved_text(std::map<std::string, long> count) {
-  // makes up for linear systems that are not solved
+  // Newton's method corrects for linear systems that were not solved, so only its misses count
   const bool newton = count["newton_iterations"] > 0;
   const long missed = count[newton ? "newton_misses" : "cg_misses"];
   if (missed == 0) return "";

@@ -12,70 +12,70 @@
 
 namespace plica::app {
 
-/// The least number of whole macro steps, at least one, that covers a duration [s] but for
-/// rounding. InputError where there are more than 1e12.
+/// Returns the smallest number of macro steps [s] that covers a duration [s] up to rounding, at
+/// least 1. Throws InputError for more than 1e12.
 long steps_to_cover(double duration, double macro_step);
 
-/// A run as summary.json tells it. Times in s, memory in bytes.
+/// Data of a run, as in summary.json. Times are in s, memory in bytes.
 struct Summary {
-  std::string status;
-  /// reached; on disk: another one only after divergence
+  std::string status;  ///< completed | interrupted | diverged
+  /// simulated time reached, and time of the last frame on disk; they differ after divergence [s]
   double simulated_time = 0, last_good_time = 0;
-  double macro_step = 0;
-  long macro_steps = 0;
-  double wall_time = 0, setup_time = 0;
+  double macro_step = 0;                 ///< length of a macro step [s]
+  long macro_steps = 0;                  ///< number of macro steps
+  double wall_time = 0, setup_time = 0;  ///< wall time of the steps, of the set-up [s]
   std::size_t peak_memory = 0, frames = 0;
   std::string precision, backend;
   int threads = 0;
-  std::optional<double> wait_share;   ///< see CoreWait
-  std::string cycle;                  ///< that ran
-  std::optional<CycleChoice> choice;  ///< of cycle auto
+  std::optional<double> wait_share;   ///< see CoreWait::share()
+  std::string cycle;                  ///< name of the cycle that ran
+  std::optional<CycleChoice> choice;  ///< choice of cycle auto; none: another cycle
   std::vector<LevelReport> levels;
-  std::map<std::string, double> stages;
+  std::map<std::string, double> stages;  ///< wall time of each stage [s]
   std::map<std::string, long> counters;
-  double residual = 0;  ///< the worst an implicit solve ended with
+  double residual = 0;  ///< largest residual of an implicit solve in the run
   std::optional<Diagnosis> diagnosis;
-  std::vector<Wrench> wrenches;       ///< of the last macro step
-  std::vector<ToolState> tools;       ///< obstacles with mass, at the end
-  std::vector<HeldBy> held;           ///< then, by obstacles that can hold points
-  Penetrations penetrations;          ///< the greatest of the run, of its frames
-  std::vector<std::string> warnings;  ///< of the scene, and of what the run has shown
-  /// where its element's corners, or its vertex, are in the last good state [m]
+  std::vector<Wrench> wrenches;       ///< forces and torques over the last macro step
+  std::vector<ToolState> tools;       ///< poses of obstacles with mass at the end
+  std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
+  Penetrations penetrations;          ///< largest depths in all frames
+  std::vector<std::string> warnings;  ///< warnings about the scene and about the run
+  /// last good positions of the corners of the diagnosis' element, or of its vertex [m]
   std::vector<Point> diagnosed;
 };
 
-/// summary.json; `words` is the command line.
+/// Returns the contents of summary.json; `words` is the command line.
 std::string summary_json(const Scene& scene, const Summary& summary,
                          const std::vector<std::string>& words);
 
-/// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters;
-/// empty where all were.
+/// Returns a warning about linear systems, or Newton steps, that were not solved, from a
+/// simulation's counters. Empty: all were solved.
 std::string unsolved_text(std::map<std::string, long> counters);
 
-/// A sentence where the cycle him went by explicit steps of level 0 for most of so many macro
-/// steps; else empty.
+/// Returns a warning if cycle him took more than half of the macro steps as explicit steps of level
+/// 0. Empty: it did not.
 std::string mostly_explicit_text(std::map<std::string, long> counters, long macro_steps);
 
-/// A sentence where the run takes very many macro steps: what would make them longer that the scene
-/// does not have yet. Else empty.
+/// Returns a warning if the run takes more than 1e6 macro steps; empty: it does not. The warning
+/// has changes to the scene that would make the steps longer.
 std::string many_steps_text(const Scene& scene, const Summary& summary);
 
-/// The same as summary.json in a few lines for people.
+/// Returns the most important data of summary.json as a few lines of text.
 std::string summary_text(const Scene& scene, const Summary& summary, const std::string& folder);
 
-/// Whether a level has elements, not points of a coarse space alone.
+/// Returns true if a level has elements; false for a coarse space, which has points only.
 bool has_elements(const LevelReport& level);
-/// As summary.json has it.
+/// Returns the name of the kind of a level in summary.json.
 const char* level_kind_name(LevelKind kind);
-/// The levels as summary.json and `plica explain --json` print them.
+/// Returns the levels as JSON, as in summary.json and `plica explain --json`.
 nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels);
 
-/// The cycle that runs: the scene's, or what auto has come to.
+/// Returns the name of the cycle that runs: the scene's, or the one that cycle auto has chosen.
 std::string cycle_name(const Scene& scene, const std::optional<CycleChoice>& choice);
 
-/// What the set-up of a scene decided.
+/// Decisions of the set-up of a scene.
 struct Plan {
-  double macro_step = 0;  ///< [s]
+  double macro_step = 0;  ///< length of a macro step [s]
   std::string backend;
   int threads = 0;
   std::string precision;
@@ -85,8 +85,9 @@ struct Plan {
   std::vector<Part> parts;
 };
 
-/// For `plica explain`: for people, in 100 columns, and for programs.
+/// Returns the output of `plica explain` as text in 100 columns.
 std::string plan_text(const Scene& scene, const Plan& plan);
+/// Returns the output of `plica explain` as JSON.
 std::string plan_json(const Scene& scene, const Plan& plan);
 
 }  // namespace plica::app

@@ -74,7 +74,7 @@ std::string in_bytes(std::size_t bytes) {
 
 namespace {
 
-// Of UTF-8: bytes that begin a letter
+// Returns the number of characters of a UTF-8 text: of the bytes that begin a character
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));

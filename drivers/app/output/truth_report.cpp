@@ -89,7 +89,7 @@ std::optional<TimeForError> time_for(const TruthFamily& family, double error) {
 
 namespace {
 
-constexpr double wanted = 0.02;  // what "good enough for tissue" is in issues and papers
+constexpr double wanted = 0.02;  // error that papers and issues call good enough for tissue
 
 std::string quality_text(const StudyResult& result) {
   const Truth& t = *result.reference.truth;

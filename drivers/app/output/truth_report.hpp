@@ -7,29 +7,33 @@
 
 namespace plica::app {
 
-inline constexpr std::size_t text_width = 110;  ///< of a study's sentences
+inline constexpr std::size_t text_width = 110;  ///< columns of a study's text
 
-/// "0.123 %"
+/// Returns a fraction as text: "0.123 %".
 std::string percent(double fraction);
 
-/// In study.json and reference.bin: how the truth was found.
+/// Returns how the truth was found, as in study.json and reference.bin.
 nlohmann::ordered_json truth_json(const Truth& truth);
-Truth truth_of(const nlohmann::ordered_json& json);  ///< the same, read
+/// Returns the data that truth_json() has written.
+Truth truth_of(const nlohmann::ordered_json& json);
 
-/// Of each kind of elements and level its error in space; without the motion.
+/// Returns the error in space of each level with each kind of elements, without the trajectories.
 nlohmann::ordered_json meshes_json(const std::vector<MeshReference>& meshes);
-std::vector<MeshReference> meshes_of(const nlohmann::ordered_json& json);  ///< the same, read
+/// Returns the data that meshes_json() has written.
+std::vector<MeshReference> meshes_of(const nlohmann::ordered_json& json);
 
-/// For people: how the truth was found, how good it is, and what each mesh is off it.
+/// Returns as text how the truth was found, how good it is, and the error of each mesh against it.
 std::string truth_text(const StudyResult& result);
 
-/// The wall time that a family's meshes, each run by itself at its own limit, need for so small an
-/// error: as measured where one is as good, else extrapolated, as a power of the error, from the
-/// two finest; none where it does not fall from one to the other.
+/// Wall time that a family of meshes needs for an error.
 struct TimeForError {
-  double seconds = 0;
-  bool measured = false;
+  double seconds = 0;     ///< wall time [s]
+  bool measured = false;  ///< true: measured; false: extrapolated
 };
+/// Returns the wall time that a family's meshes, each run by itself at its own limit, need for an
+/// error. It is that of the first mesh with such an error. If no mesh has one, the time is
+/// extrapolated from the two finest meshes as a power of the error. None: the error does not fall
+/// from one of these to the other.
 std::optional<TimeForError> time_for(const TruthFamily& family, double error);
 
 }  // namespace plica::app

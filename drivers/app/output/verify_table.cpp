@@ -93,7 +93,7 @@ std::string with_unit(const std::optional<double>& value, const std::string& uni
   return number(value) + (value && unit != "1" ? " " + unit : "");
 }
 
-// What the row had to come to
+// Returns what the row had to fulfil
 std::string demand(const VerifyRow& row) {
   switch (row.judged) {
     case Judged::finest:
@@ -117,7 +117,8 @@ std::string accepted(const VerifyRow& row) {
   return row.judged == Judged::size ? "0" : with_unit(row.accepted, row.unit);
 }
 
-// The finest value; of errors to round-off the worst
+// Returns the value on the finest mesh; for errors that must be round-off, the largest of all
+// meshes
 std::optional<double> headline(const VerifyRow& row) {
   if (row.ours.empty()) return {};
   double worst = 0;
@@ -140,7 +141,7 @@ std::string values(const VerifyRow& row) {
 
 using Cell = std::string (*)(const VerifyRow&);
 
-// The tables' columns: in verify.md, and on the terminal where that is not null
+// Column of the tables in verify.md and on the terminal; text null: not on the terminal
 struct Column {
   const char* name;
   Cell markdown, text;

@@ -6,27 +6,27 @@
 
 namespace plica::app {
 
-/// What a table of known answers was made on.
+/// Conditions under which a table of problems with known solutions was made.
 struct VerifyHead {
   StudyMachine machine;
   std::string status;    ///< completed | interrupted | unfinished
-  bool small = false;    ///< on coarser meshes
-  double wall_time = 0;  ///< so far [s]
+  bool small = false;    ///< true: on coarser meshes
+  double wall_time = 0;  ///< wall time so far [s]
 };
 
-/// verify.json
+/// Returns the contents of verify.json.
 std::string verify_json(const VerifyHead& head, const VerifyResult& result);
 
-/// verify.csv: a line per row and mesh.
+/// Returns the contents of verify.csv: a line per row and mesh.
 std::string verify_csv(const VerifyResult& result);
 
-/// "finest", "limit" ...
+/// Returns the name of a criterion: "finest", "limit" ...
 std::string judged_name(Judged judged);
 
-/// verify.md: one table with all there is to say, and what it was made on.
+/// Returns the contents of verify.md: a table of all data, and the conditions it was made under.
 std::string verify_markdown(const VerifyHead& head, const VerifyResult& result);
 
-/// The same in short, for a terminal; `folder` has the rest.
+/// Returns a short table for a terminal; verify.md in `folder` has all data.
 std::string verify_text(const VerifyResult& result, const std::string& folder);
 
 }  // namespace plica::app

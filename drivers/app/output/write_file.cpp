@@ -68,7 +68,7 @@ void sync_file(const std::filesystem::path& file) {
   const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (handle < 0)
     throw FileError("cannot read " + file.string() + ": " + std::generic_category().message(errno));
-  fsync(handle);  // what cannot be synchronised is as safe as it gets
+  fsync(handle);  // errors are ignored: a file that cannot be synchronised cannot be made safer
   close(handle);
 }
 
@@ -88,7 +88,7 @@ void make_folder(const std::filesystem::path& folder) {
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (handle_ < 0 || flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-    return;  // not all systems have locks
+    return;  // locked, or the system has no locks
   close(handle_);
   throw InputError("another run is writing to the folder " + folder.string() +
                    "; expected its end, or another folder with -o");
@@ -137,7 +137,7 @@ void GrowingFile::open() {
 }
 
 void GrowingFile::add(const std::string& line) {
-  // one call: all of the line or nothing
+  // one call of write(), so that the file gets all of the line or nothing
   const ssize_t written = ::write(handle_, line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size())) {
     const std::string reason = std::generic_category().message(written < 0 ? errno : ENOSPC);

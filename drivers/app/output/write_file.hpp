@@ -13,41 +13,43 @@
 
 namespace plica::app {
 
-/// A file or folder that cannot be read or written; what() names it and the reason.
+/// Error of a file or folder that cannot be read or written; what() has its name and the reason.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A folder for results that cannot be made or is none: what was asked for is wrong, not what
-/// became of it.
+/// Error of a folder for results that cannot be made or is no folder. It counts as bad input: the
+/// user has named a wrong folder.
 class FolderError : public FileError {
  public:
   using FileError::FileError;
 };
 
+/// Option of write_file(): yes waits until the file is on disk, so that it survives a power
+/// failure.
 enum class Durable { no, yes };
 
-/// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old
-/// content or the new; where it is durable also after the power failed.
+/// Replaces the file as a whole. Readers see either the old content or the new one, also after the
+/// program was killed; if it is durable, also after a power failure.
 void write_file(const std::filesystem::path& file, const std::string& content,
                 Durable durable = Durable::no);
 
-/// Waits until a file's content, or a folder's list of names, is on the disk.
+/// Waits until a file's content, or a folder's list of names, is on disk.
 void sync_file(const std::filesystem::path& file);
 
-/// The same of several that belong together: all are written out before the first is replaced.
+/// Replaces several files that belong together: all are written before the first one is replaced.
 void write_files(const std::vector<MemoryFile>& files);
 
-/// Makes the folder, and those above it, where they are missing. FolderError says what stands in
-/// the way, and why.
+/// Makes the folder and its parents, if they are missing. Throws FolderError, which says what
+/// prevents it and why.
 void make_folder(const std::filesystem::path& folder);
 
-/// Keeps other runs out of a folder as long as it lives: the system gives the folder back even
-/// where the program is killed.
+/// Lock on a folder: keeps other runs out while the object exists. The system releases the lock
+/// even if the program is killed.
 class FolderLock {
  public:
-  /// InputError where another run has it.
+  /// Locks the folder. Throws InputError if another run has locked it.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -57,22 +59,22 @@ class FolderLock {
   int handle_;
 };
 
-/// A text file that grows by whole lines. Whoever looks at it, also after the run was killed, finds
-/// whole lines. FileError where it cannot be written.
+/// Text file that grows by whole lines. A reader finds whole lines only, also after the run was
+/// killed. Throws FileError if it cannot be written.
 class GrowingFile {
  public:
-  /// Starts anew with this head.
+  /// Starts a new file with this head.
   GrowingFile(std::filesystem::path file, const std::string& head);
-  /// Goes on after the first `size` bytes; what stood behind them is cut off. InputError where
-  /// there are fewer.
+  /// Continues the file after its first `size` bytes, and removes the rest. Throws InputError if
+  /// the file has fewer bytes.
   GrowingFile(std::filesystem::path file, std::uint64_t size);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   void add(const std::string& line);
-  void sync() const;                  ///< waits until it is on the disk
-  void cut_back(std::uint64_t size);  ///< what stands behind is cut off
+  void sync() const;                  ///< waits until the file is on disk
+  void cut_back(std::uint64_t size);  ///< keeps the first `size` bytes
   std::uint64_t size() const { return size_; }
 
  private:
@@ -82,8 +84,8 @@ class GrowingFile {
   std::uint64_t size_ = 0;
 };
 
-/// FNV-1a with eight bytes at a time: tells damage and change, not malice.
-/// http://www.isthe.com/chongo/tech/comp/fnv/
+/// Digest of data by FNV-1a with eight bytes at a time. Detects damage and changes, but no attacks.
+/// Source: http://www.isthe.com/chongo/tech/comp/fnv/
 class Digest {
  public:
   void add(const void* data, std::size_t size) {

@@ -39,7 +39,7 @@ struct Range {
   float low = 0, high = 0;
 };
 
-// Every `stride`th value of all frames, from the one `first`
+// Returns the range of every `stride`th value of all frames, starting with value `first`
 Range range_of(const std::vector<std::vector<float>>& frames, std::size_t first,
                std::size_t stride) {
   Range range{frames.front()[first], frames.front()[first]};
@@ -49,7 +49,8 @@ Range range_of(const std::vector<std::vector<float>>& frames, std::size_t first,
   return range;
 }
 
-// As parts of the ranges of the components, which take turns
+// Returns the values as 16-bit parts of the ranges, in base64. Value i has range i modulo the
+// number of ranges, since the components alternate
 std::string quantised(const std::vector<std::vector<float>>& frames,
                       const std::vector<Range>& ranges) {
   std::vector<std::uint16_t> values;
@@ -73,7 +74,8 @@ std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vect
   return rows;
 }
 
-// Not for colours: what is the same in all frames and means nothing to the eye
+// Returns true for arrays that do not colour the surface: displacement, mass and number. Mass and
+// number are equal in all frames
 bool left_out(const std::string& name) {
   return name == "displacement" || name == "mass" || name == "number";
 }
@@ -171,7 +173,7 @@ void Film::add(const FrameFile& frame) {
   for (auto& [name, field] : fields_) field.frames.push_back(values_of(*frame.find(name)));
 }
 
-// Whether some vertex of it never moves
+// Returns true if some vertex never moves
 bool Film::held() const {
   Point low = rest_.front(), high = rest_.front();
   for (const Point& p : rest_) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -206,7 +208,7 @@ Json Film::json() const {
     const Range range = range_of(field.frames, 0, 1);
     const bool still =
         std::ranges::all_of(field.frames, [&](const auto& f) { return f == field.frames.front(); });
-    if (still && range.low == range.high) continue;  // nothing to see
+    if (still && range.low == range.high) continue;  // one colour only
     const auto end = still ? field.frames.begin() + 1 : field.frames.end();
     json["fields"].push_back({{"name", name},
                               {"label", label_of(name, field.is_length)},

@@ -8,25 +8,26 @@
 
 namespace plica::app {
 
-/// The surface of a body in time, as the page shows it: of tetrahedra their boundary. Numbers are
-/// kept in 16 bits, as parts of the range that they have over all times: steps of a displacement
-/// are 1/65535 of the largest motion along an axis.
+/// Animated surface of a body, as the page shows it. For tetrahedra it is their boundary. Numbers
+/// are stored in 16 bits, as parts of their range over all times. So the resolution of a
+/// displacement is 1/65535 of the largest motion along an axis.
 class Film {
  public:
-  /// `level`: of the tetrahedra; -1: the film is of the surface that a run always writes.
+  /// Starts the animation with the mesh of its first frame.
+  /// @param level  level of the tetrahedra; -1: the surface that every run writes
   Film(int level, const FrameFile& first);
-  /// InputError where a frame is not of the same mesh as the first one.
+  /// Throws InputError if a frame does not have the mesh and the arrays of the first one.
   void check(const FrameFile& frame) const;
-  /// A checked one.
+  /// Adds a frame, which must have passed check().
   void add(const FrameFile& frame);
-  /// Whether it has the triangles and the shape at rest of the other one.
+  /// Returns true if both have the same triangles and the same shape at rest.
   bool same_surface(const Film& other) const;
-  /// The member of the page's data that is this film.
+  /// Returns the animation as a member of the page's data.
   nlohmann::ordered_json json() const;
 
  private:
   struct Field {
-    bool of_cells = false, is_length = false;  // is_length: of a vector
+    bool of_cells = false, is_length = false;  // is_length: values are lengths of vectors
     std::vector<std::vector<float>> frames;
   };
   void take_boundary(const FrameFile& first);
@@ -34,17 +35,17 @@ class Film {
   bool held() const;
 
   int level_;
-  std::size_t points_ = 0, cells_ = 0;         // of the frames
-  std::vector<int> vertices_, owners_;         // that are kept; per triangle its cell
-  std::vector<std::array<int, 3>> triangles_;  // of kept vertices
-  std::vector<Point> rest_;                    // [m]
-  std::vector<std::vector<float>> motion_;     // per frame and vertex [m]
-  std::vector<std::array<double, 12>>
-      fits_;  // per frame the rigid motion nearest to it: rows of rotation and translation
+  std::size_t points_ = 0, cells_ = 0;         // numbers of points and cells in the frames
+  std::vector<int> vertices_, owners_;         // vertices of the surface; cell of each triangle
+  std::vector<std::array<int, 3>> triangles_;  // [triangles][3] indices into vertices_
+  std::vector<Point> rest_;                    // [vertices] positions at rest [m]
+  std::vector<std::vector<float>> motion_;     // [frames][vertices][3] displacement [m]
+  // [frames] nearest rigid motion: three rows of rotation and translation
+  std::vector<std::array<double, 12>> fits_;
   std::map<std::string, Field> fields_;
 };
 
-/// The bytes in base64 (RFC 4648).
+/// Returns the bytes in base64 (RFC 4648).
 std::string base64(const void* data, std::size_t size);
 
 }  // namespace plica::app

@@ -6,7 +6,7 @@ namespace plica::app {
 
 std::string filled_page(const PageFiles& files, const std::string& title, const std::string& json) {
   std::string data, heading;
-  // it might end the script
+  // escapes <, since </script> in the data would end the script
   for (const char letter : json) letter == '<' ? data += "\\u003c" : data += letter;
   for (const char letter : title)
     letter == '<' ? heading += "&lt;" : letter == '&' ? heading += "&amp;" : heading += letter;

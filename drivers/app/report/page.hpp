@@ -5,17 +5,17 @@
 
 namespace plica::app {
 
-/// What a page is made of, as the build has put it into the program. In the HTML {{title}},
-/// {{style}}, {{data}} and {{script}} stand for what belongs there.
+/// Files of a page, which the build has put into the program. The HTML has the placeholders
+/// {{title}}, {{style}}, {{data}} and {{script}}.
 struct PageFiles {
   std::string_view html, style, script;
 };
-/// Of `plica report`: the files of this folder.
+/// Returns the files of the page of `plica report`, from drivers/app/report.
 PageFiles report_files();
-/// Of `plica view`: those of drivers/app/view, with some of these.
+/// Returns the files of the page of `plica view`, from drivers/app/view and drivers/app/report.
 PageFiles live_files();
 
-/// The page with these data, in JSON.
+/// Returns the page with a title and its data in JSON.
 std::string filled_page(const PageFiles& files, const std::string& title, const std::string& json);
 
 }  // namespace plica::app

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t most_rows = 2000;  // of a table on the page
+constexpr std::size_t most_rows = 2000;  // maximum number of rows of a table on the page
 
 bool holds_run(const std::filesystem::path& folder) {
   return std::ranges::any_of(
@@ -27,7 +27,7 @@ bool holds_study(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "study.json");
 }
 
-// Folders in a folder that hold something to report, by name
+// Returns the names of the subfolders that hold a run or a study, sorted
 std::vector<std::string> reportable_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -60,7 +60,7 @@ void check_folder(const std::filesystem::path& folder) {
       (inside.empty() ? "" : fmt::format(" (folders in it that do: {})", fmt::join(inside, ", "))));
 }
 
-// A film that the run wrote: its level, -1 for the surface, and what is listed
+// Animation that the run wrote: its level (-1: the surface) and the frames in its collection
 struct Listed {
   int level = -1;
   std::vector<FilmEntry> entries;
@@ -157,7 +157,7 @@ class Maker {
       data_["films"].push_back(films[i]->json());
   }
 
-  // The frame of all films, or of none
+  // Adds a frame to all animations; adds it to none and returns false if one cannot be read
   bool add_frame(const std::vector<Listed>& listed, std::size_t frame,
                  std::vector<std::optional<Film>>& films) {
     std::vector<FrameFile> files;

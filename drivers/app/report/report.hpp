@@ -6,19 +6,20 @@
 
 namespace plica::app {
 
-/// A page that shows what `plica run` or `plica study` left in a folder.
+/// Page that shows a run or a study.
 struct Report {
-  /// all of it: it opens without other files and without a network
+  /// the whole page: it needs no other files and no network
   std::string html;
-  std::size_t frames = 0;        ///< on the page
-  std::size_t frames_there = 0;  ///< that the run wrote
-  /// what is missing or cannot be read, a sentence each; the page shows them too
+  std::size_t frames = 0;        ///< number of frames on the page
+  std::size_t frames_there = 0;  ///< number of frames that the run wrote
+  /// warnings about what is missing or cannot be read, one sentence each; the page shows them too
   std::vector<std::string> warnings;
 };
 
-/// At most `frames` of a run are taken, evenly, the first and the last among them. InputError where
-/// the folder holds neither a run nor a study, or a file of it is damaged; a frame that is missing
-/// or damaged is left out, with a warning.
+/// Makes the page of a folder that `plica run` or `plica study` wrote. Takes at most `frames`
+/// frames of a run, evenly, the first and the last among them. Leaves out frames that are missing
+/// or damaged, with a warning. Throws InputError if the folder holds neither a run nor a study, or
+/// if another file is damaged.
 Report make_report(const std::filesystem::path& folder, std::size_t frames);
 
 }  // namespace plica::app

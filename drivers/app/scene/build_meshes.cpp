@@ -20,9 +20,9 @@ namespace plica::app {
 
 namespace {
 
-constexpr double at_the_same_place = 1e-9;  // of the mean edge
+constexpr double at_the_same_place = 1e-9;  // distance between vertices, in mean edges
 
-// Gathers sentences about what there is any of
+// Collects sentences; leaves out those whose count is 0 or whose condition is false
 class Sentences {
  public:
   void add(int count, const std::string& noun, const std::string& rest) {
@@ -37,7 +37,7 @@ class Sentences {
   std::vector<std::string> list_;
 };
 
-constexpr double largest_body = 3, smallest_body = 1e-4;  // [m]
+constexpr double largest_body = 3, smallest_body = 1e-4;  // expected extents of a body [m]
 
 double extent_of(const TetMesh& mesh) {
   const Box box = bounding_box(mesh.vertices);
@@ -48,7 +48,8 @@ bool no_body(const TetMesh& mesh) {
   return extent_of(mesh) > largest_body || extent_of(mesh) < smallest_body;
 }
 
-// Where it is from a file, the likely cause is that this is in another unit
+// Returns a sentence about the size of a body that is too large or too small. For a body from a
+// file, it says that the file may be in another unit; else that the numbers may lack their unit
 std::string size_text(const TetMesh& mesh, bool of_file) {
   const double extent = extent_of(mesh);
   std::string text = fmt::format("the body is {:.4g} m long", extent);
@@ -117,8 +118,8 @@ std::string why_open(const SurfaceReport& report) {
 
 namespace {
 
-// A generator knows nothing of files, and a mesh file nothing of scenes: what is refused gets the
-// place in the scene
+// Calls make() and adds the location in the scene to an InputError that it throws. Generators and
+// readers of mesh files do not know the scene
 template <class Make>
 auto placed(const Where& where, const Make& make) {
   try {
@@ -145,7 +146,8 @@ void warn(Scene& scene, const std::filesystem::path& file,
     scene.warnings.push_back(file.string() + ": " + warning);
 }
 
-// Numbers in the file, or, where one is too large, places in its order
+// Returns the numbers in the file, in the new order. If one does not fit an int, returns `order`:
+// the positions in the file
 std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector<int>& order) {
   const auto fits = [](std::int64_t tag) {
     return tag >= 0 && tag <= std::numeric_limits<int>::max();
@@ -156,7 +158,8 @@ std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector
   return ids;
 }
 
-// A file may be in a good order already, such as that of a grid
+// Returns an order in which neighbours are close in memory. Keeps the file's order if that is as
+// good, such as that of a grid
 Reordering better_order(const TetMesh& mesh) {
   Reordering order = locality_order(mesh);
   if (mean_vertex_span(reordered(mesh, order)) < mean_vertex_span(mesh)) return order;
@@ -164,7 +167,8 @@ Reordering better_order(const TetMesh& mesh) {
   return order;
 }
 
-// Scaled, glued and put in an order that is fast to simulate; `numbering` leads back to the file's
+// Reads a level's mesh, scales it, and merges duplicates and repairs it if asked. Then puts it in
+// an order that is fast to simulate. `numbering` maps this order to that of the file
 TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where,
                   Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
@@ -202,7 +206,7 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where
   return surface;
 }
 
-// Of a mesh its boundary
+// Reads a closed surface; from a file that holds a mesh, its boundary
 TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const Where& where) {
   const std::filesystem::path file = found("surface", recipe.surface, scene, where);
   auto read = placed(where, [&] { return read_any(file); });
@@ -221,7 +225,8 @@ TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const
   return surface;
 }
 
-// Lattices over it, which is what is embedded in them unless the scene has another one
+// Makes a lattice over the closed surface for each level. The surface is embedded in the levels,
+// unless the scene has another embedded surface
 void lay_lattices(Scene& scene, const Tree& tree) {
   Body& body = scene.problem.body;
   const Where where = place_of(tree, "body.levels.surface");
@@ -282,7 +287,7 @@ TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where
         fmt::format("the surface '{}' {}; expected a closed one, or a sheet: thickness: 2 mm",
                     file.string(), why_open(report)),
         where);
-  if (thickness > 0) report.open_edges = 0;  // as a sheet's are
+  if (thickness > 0) report.open_edges = 0;  // open edges are no fault of a sheet
   warn(scene, file, surface_warnings(report));
   const double angle = recipe.rotation.norm();
   const Eigen::Matrix3d turn =

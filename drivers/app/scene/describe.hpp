@@ -5,25 +5,25 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
-/// The keys that only scenes have, as core/describe.hpp has those of the library. Together they are
-/// all that a scene can say.
+/// Tables of the keys that only scenes have. core/describe.hpp has those of the library's options.
+/// Together they are all keys of a scene.
 namespace plica::app {
 
 using namespace keys;
 
-std::vector<Choice> frame_formats();
-std::vector<Choice> precisions();
+std::vector<Choice> frame_formats();  ///< file formats of frames
+std::vector<Choice> precisions();     ///< float and double
 
-/// Of threads: as many as Kokkos can have with OpenMP.
+/// Number of threads; the maximum is what Kokkos allows with OpenMP.
 inline constexpr Count thread_count{1, 512};
 
-/// How often: in simulated time or in macro steps.
+/// Kind of a value: an interval in simulated time or in macro steps.
 struct Every {
   std::string expects() const { return "a time (s) > 0, or macro steps such as 10 steps"; }
   std::string shown(const Interval& value) const { return text_of(value); }
 };
 
-/// Which levels.
+/// Kind of a value: a selection of levels.
 struct LevelChoice {
   std::string expects() const {
     return "true (level 0), false, all, or a list of levels counted from 0, the finest";
@@ -31,13 +31,14 @@ struct LevelChoice {
   std::string shown(const VolumeLevels& value) const;
 };
 
-/// true for a struct with its defaults, false for none, or the struct: of an optional.
+/// Kind of a value: an optional struct. true: the struct with its defaults; false: none; a map: the
+/// struct's values.
 struct Switch {};
 
-/// A list of maps, or one map instead: of a struct with both.
+/// Kind of a value: a list of maps, or one map instead. The struct has a member for each.
 struct ListOrMap {};
 
-/// Points with names.
+/// Kind of a value: points with names.
 struct NamedPoints {
   std::string expects() const { return "a map of names to lists of 3 lengths (m)"; }
   std::string shown(const std::map<std::string, Point>&) const { return {}; }
@@ -122,7 +123,7 @@ void describe(V& v, LatticesRecipe& o) {
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
-/// `body.levels`: a recipe for each, or for all.
+/// Targets of the key `body.levels`: a recipe for each level, or one recipe for all levels.
 struct LevelsKeys {
   std::vector<LevelRecipe>& list;
   std::optional<LatticesRecipe>& map;
@@ -147,9 +148,10 @@ void describe(V& v, SurfaceRecipe& o) {
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
-inline constexpr Bounds below_half{.min = 0, .max = 0.5, .max_excluded = true};  ///< from 0
+/// At least 0, below 0.5.
+inline constexpr Bounds below_half{.min = 0, .max = 0.5, .max_excluded = true};
 
-/// The key `body` fills the library's Body and the recipes of its meshes.
+/// Targets of the key `body`: the library's Body and the recipes of its meshes.
 struct BodyKeys {
   std::vector<LevelRecipe>& levels;
   std::optional<LatticesRecipe>& lattices;
@@ -178,11 +180,11 @@ template <class V>
 void describe(V& v, BodyRecipe& o) {
   BodyKeys keys{o.levels, o.lattices, o.jitter, o.body, o.surface};
   describe(v, keys);
-  IntegrationOptions integration;  // shared_integration() takes it
+  IntegrationOptions integration;  // not stored: shared_integration() reads it from the tree
   v("integration", integration, Group{}, body_integration_help);
 }
 
-/// A map of names to what `body` may say, and `integration`.
+/// Kind of a value: a map of names to the keys of `body`, and `integration`.
 struct BodyMap {};
 
 template <class V>
@@ -209,7 +211,7 @@ void describe(V& v, ObstacleRecipe& o) {
   describe(v, o.options);
 }
 
-/// `contact` fills the library's options and the recipes of its obstacles.
+/// Target of the key `contact`: the library's options and the recipes of the obstacles.
 struct ContactKeys {
   Scene& scene;
 };
@@ -230,7 +232,7 @@ void describe(V& v, OutputOptions& o) {
   v("format", o.format, Name{"format", frame_formats}, "of the frames");
 }
 
-/// As in `integration`, none of them with a default.
+/// Visits keys of a variant: those of `integration`, without defaults.
 template <class V>
 void describe(V& v, StudyVariant& o) {
   describe_stepping(v, o);

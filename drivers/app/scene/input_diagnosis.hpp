@@ -6,7 +6,7 @@
 
 namespace plica::app {
 
-/// With element and vertex as the mesh file numbers them.
+/// Returns the diagnosis with the numbers that element and vertex have in the mesh file.
 inline Diagnosis in_input_numbers(Diagnosis diagnosis, const Scene& scene) {
   const Numbering& numbering =
       scene.numbering[static_cast<std::size_t>(std::max(diagnosis.level, 0))];

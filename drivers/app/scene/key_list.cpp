@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// What each kind of value may look like
+// JSON Schema of each kind of value
 
 constexpr const char* magnitude = "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*";
 
@@ -100,8 +100,7 @@ Json schema_of(const ListOf<Kind>& kind) {
   return any_of({one, list_of(one)});
 }
 
-// Walks the tables as the reader does, with defaults for values, and notes every key: in a list,
-// and as JSON Schema
+// Visitor of the tables with default values. Adds every key to a list, and makes the JSON Schema
 class Catalogue {
  public:
   Catalogue(std::vector<KeyInfo>& keys, std::string path) : keys_(keys), path_(std::move(path)) {}
@@ -182,7 +181,7 @@ class Catalogue {
     return "a list of maps";
   }
 
-  // The schema of a key with keys below it
+  // Returns the schema of a key that has keys below it
   template <class T>
   Json object(T& member, const std::string& path) {
     Catalogue deeper(keys_, path);
@@ -208,7 +207,7 @@ class Catalogue {
   }
   template <class T>
   Json inside(std::optional<T>&, const Switch&, const std::string& path) {
-    Json schema = object<T>(path);  // what it says of keys holds for objects only
+    Json schema = object<T>(path);  // rules for keys apply to objects only
     schema["type"] = {"boolean", "object"};
     return schema;
   }
@@ -220,7 +219,7 @@ class Catalogue {
   }
   template <class T>
   Json inside(T& member, const ListOrMap&, const std::string& path) {
-    // what it says of items holds for lists only, of keys for objects
+    // rules for items apply to lists only, rules for keys to objects only
     Json schema = inside(member.list, List{}, path);
     schema.update(inside(member.map, Group{}, path));
     schema["type"] = {"array", "object"}, schema["minItems"] = 1;

@@ -6,22 +6,21 @@
 
 namespace plica::app {
 
-/// One key of a scene as `plica list keys` prints it. Lists stand as "levels[]", names of one's own
-/// as "<name>".
+/// Key of a scene, as `plica list keys` prints it.
 struct KeyInfo {
-  std::string path;
-  std::string expects;
-  /// what holds when it is left out: "required", "one of these" or the default
+  std::string path;     ///< path of the key; a list is "levels[]", a user's own name "<name>"
+  std::string expects;  ///< allowed values
+  /// meaning of a missing key: "required", "one of these" or the default
   std::string otherwise;
-  std::string help;
+  std::string help;  ///< meaning of the key
 };
 
-/// Every key, in the order of the tables.
+/// Returns every key, in the order of the tables.
 const std::vector<KeyInfo>& scene_keys();
 
-/// What a scene may say as JSON Schema (draft 7, which editors know best), from the tables that
-/// read it. It is a little more lenient than the reader: a quantity's unit may be one unit, or one
-/// times a power of another.
+/// Returns the JSON Schema of scenes (draft 7, which editors support best), made from the tables
+/// that read scenes. It is a little more lenient than the reader. The unit of a quantity is one
+/// unit there, or one unit times a power of another.
 const nlohmann::ordered_json& scene_schema();
 
 }  // namespace plica::app

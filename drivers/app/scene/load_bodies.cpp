@@ -12,7 +12,7 @@ namespace plica::app {
 
 namespace {
 
-/// Walks a table and notes each key's path and value.
+/// Visitor of a table that collects the path and value of each key.
 class KeyValues {
  public:
   using All = std::vector<std::pair<std::string, std::string>>;
@@ -37,7 +37,7 @@ class KeyValues {
   std::string path_;
 };
 
-/// Values of the map `above` take the place of those of `below`, key by key.
+/// Replaces values of the map `below` by those of `above`, key by key.
 void put_over(Tree& below, const Tree& above) {
   for (const Tree& item : above.items) {
     const auto same = std::ranges::find(below.items, item.key, &Tree::key);
@@ -50,7 +50,7 @@ void put_over(Tree& below, const Tree& above) {
   }
 }
 
-/// The scene with this integration over its own, and with bodies that have none.
+/// Returns the scene with this integration put over its own, and with none in its bodies.
 Tree with_integration(Tree tree, const Tree& integration) {
   for (Tree& body : std::ranges::find(tree.items, "bodies", &Tree::key)->items)
     std::erase_if(body.items, [](const Tree& item) { return item.key == "integration"; });
@@ -81,7 +81,7 @@ Tree shared_integration(const Tree& tree) {
     for (const Tree& body : all->items)
       if (body.find("integration") != nullptr) bodies.push_back(&body);
   if (bodies.empty()) return tree;
-  read_scene(tree);  // each by itself is as it should be
+  read_scene(tree);  // throws if one of them is wrong by itself
   Tree shared = with_integration(tree, *bodies.front()->find("integration"));
   const KeyValues::All first = integration_values(shared);
   for (const Tree* body : bodies) {
@@ -104,8 +104,8 @@ namespace {
 
 bool is_space(const Tree& level) { return level.find("coarsen") != nullptr; }
 
-/// The scene with one of its bodies as `body`, which has `levels` meshes: the coarsest is repeated.
-/// Coarse spaces come after them.
+/// Returns the scene with one of its bodies as `body`. The body gets `levels` meshes: its coarsest
+/// mesh is repeated. Coarse spaces come after the meshes.
 Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   Tree one = tree;
   std::erase_if(one.items, [](const Tree& item) {
@@ -123,11 +123,11 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   return one;
 }
 
-/// The sentence of a body by itself, with the path that the scene has.
+/// Returns a message about `body` with the path that this body has in the scene, "bodies.NAME".
 std::string renamed(std::string message, const std::string& name) {
   const std::string from = "body.", to = "bodies." + name + ".";
   for (std::size_t at = 0; (at = message.find(from, at)) != std::string::npos; at += to.size())
-    if (at == 0 || message[at - 1] == ' ')  // no part of a file's name
+    if (at == 0 || message[at - 1] == ' ')  // names of files stay
       message.replace(at, from.size(), to);
   return message;
 }
@@ -147,7 +147,7 @@ std::vector<int> joined_numbers(std::vector<int> all, std::vector<int> more, std
   return all;
 }
 
-/// Of one level: bodies one after the other, each in the order of its input.
+/// Appends the numbering of one body on a level: bodies are in sequence, each in its input order.
 void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, std::size_t vertices,
                    std::size_t tets) {
   Reordering& input = all.input;
@@ -190,7 +190,7 @@ Scene load_bodies(const Tree& tree) {
       add_numbering(all.numbering[i], one.numbering[i], mesh, vertices[i], tets[i]);
       vertices[i] += mesh.vertices.size(), tets[i] += mesh.tets.size();
     }
-    // with their surfaces
+    // obstacles of `one` have triangulated surfaces, those of the recipe have none
     all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);
     bodies.emplace_back(item.key, std::move(one.problem.body));
   }

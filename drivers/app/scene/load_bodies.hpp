@@ -5,13 +5,13 @@
 
 namespace plica::app {
 
-/// The scene whose `integration` is that of its bodies, bodies.NAME.integration over `integration`,
-/// and whose bodies have none. Bodies take one step together, so those that have one must come to
-/// the same; the others follow. InputError with the key and both values where they differ. Without
-/// any the scene stays as it is.
+/// Returns the scene with one `integration` for all bodies: bodies.NAME.integration put over
+/// `integration`. The bodies then have none. Bodies are stepped together, so all that have one must
+/// give the same values. Throws InputError with the key and both values if they differ. A scene
+/// whose bodies have no `integration` is returned unchanged.
 Tree shared_integration(const Tree& tree);
 
-/// A scene with `bodies`: each is read and built as a scene's `body`, then they are joined. See
+/// Loads a scene with `bodies`: reads and builds each like a scene's `body`, then joins them. See
 /// join_bodies().
 Scene load_bodies(const Tree& tree);
 

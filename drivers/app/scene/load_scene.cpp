@@ -22,7 +22,7 @@ std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 
 
 namespace {
 
-/// Levels without a mesh, which stand after the meshes, become the body's coarse spaces.
+/// Turns the levels without a mesh, which come after the meshes, into the body's coarse spaces.
 void take_coarse_spaces(Scene& scene, const Tree& tree) {
   const auto first = std::ranges::find_if(
       scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
@@ -47,7 +47,7 @@ void take_coarse_spaces(Scene& scene, const Tree& tree) {
   scene.levels.erase(first, scene.levels.end());
 }
 
-/// A level for each lattice.
+/// Adds a level for each lattice.
 void take_lattices(Scene& scene, const Tree& tree) {
   if (!scene.lattices) return;
   const std::vector<double>& sizes = scene.lattices->sizes;
@@ -107,7 +107,8 @@ void only_of_files(const std::string& file, bool given, const std::string& path,
   if (file.empty() && given) throw InputError(path + ": only a file has one", place_of(tree, path));
 }
 
-// What every body has a value of, given to a law that does not take it
+// Throws InputError for young_modulus or poisson_ratio if the law does not use it. Every body has
+// values of both, so the reader does not refuse them
 void check_given(const Scene& scene, const Tree& tree) {
   const MaterialInfo& info = *find_material(scene.problem.body.material.model);
   std::vector<std::string> known;
@@ -144,8 +145,8 @@ void check_body(const Scene& scene, const Tree& tree) {
         place_of(tree, "body.surface.boundary"));
 }
 
-// What a set-up takes of memory [bytes]. Measured with `plica check`: 350 for each of 384 000 and
-// of 1 296 000 tetrahedra
+// Returns the memory that the set-up of a generated level needs [bytes]. 350 bytes per tetrahedron
+// were measured with `plica check` for 384 000 and for 1 296 000 tetrahedra
 double generated_bytes(const LevelRecipe& level) {
   constexpr double bytes_per_tet = 350;
   const auto cells = [](int x, int y, int z) { return 6.0 * x * y * z * bytes_per_tet; };
@@ -163,7 +164,7 @@ double generated_bytes(const SurfaceRecipe& surface) {
   return surface.sphere ? 20 * std::pow(4.0, surface.sphere->subdivisions) * bytes_per_triangle : 0;
 }
 
-// Nothing is allocated that cannot be had
+// Throws InputError if the set-up needs more memory than the machine has
 void check_memory(const Scene& scene, const Tree& tree) {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -218,7 +219,7 @@ double generated_bytes(const Scene& scene) {
 }
 
 void check_scene(const Scene& scene, const Tree& tree) {
-  if (scene.bodies.empty()) {  // else each is checked
+  if (scene.bodies.empty()) {  // several bodies are checked one by one
     check_body(scene, tree);
     check_memory(scene, tree);
     with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });

@@ -11,46 +11,50 @@
 
 namespace plica::app {
 
-/// "key.path=value", given on the command line as `label` shows.
+/// Value that the command line sets.
 struct Override {
-  std::string assignment;
-  std::string label;
+  std::string assignment;  ///< "key.path=value"
+  std::string label;       ///< the argument, for messages: "--set key.path=value"
 };
 
-/// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and
-/// line otherwise.
+/// Reads a scene, checks it and builds its meshes: its problem is ready for Simulation. Throws
+/// InputError with file and line.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
-/// The same from a tree.
+/// Makes a scene from a tree, checks it and builds its meshes. Throws InputError with file and
+/// line.
 Scene load_scene(const Tree& tree);
 
-/// An error of the library, which names options and knows no files, with the place where the scene
-/// gives the option that the message begins with.
+/// Returns an error of the library with its location in the scene. The message begins with the name
+/// of an option; the location is where the scene sets that option.
 InputError located(const InputError& error, const Tree& source);
 
-/// Its parts. What the keys say, each within its range:
+/// Reads the keys of a scene and checks each value against its range. Builds no meshes.
 Scene read_scene(const Tree& tree);
-/// what they say together; InputError for contradictions.
+/// Throws InputError for values of a scene that contradict each other.
 void check_scene(const Scene& scene, const Tree& tree);
-/// about what the meshes that it has generated will take of memory when it is set up [bytes];
+/// Returns about how much memory the set-up needs for the meshes that a scene generates [bytes].
 double generated_bytes(const Scene& scene);
-/// level 0 twice as fine along every edge. InputError where it comes from a file;
+/// Returns level 0 with edges half as long. Throws InputError for a level from a file or a lattice.
 TetMesh finer_mesh(const Scene& scene);
-/// The meshes and the embedded surface, and the names of groups and regions checked against them.
+/// Builds the meshes and the embedded surface. Checks the names of groups and regions against them.
 void build_meshes(Scene& scene, const Tree& tree);
 
-/// These three, of a scene with `body`; the whole problem is validated after that.
+/// Loads a scene with one `body`: read_scene(), check_scene() and build_meshes(). The caller
+/// validates the whole problem after that.
 Scene load_body(const Tree& tree);
-/// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is
-/// taken to the surface.
+/// Checks that the probes lie in level 0. Throws InputError for a probe that is outside by more
+/// than an edge. Adds a warning for one that is closer: the nearest point of the body is used.
 void check_probes(Scene& scene, const Tree& tree);
 
-/// What a user should know about a mesh that was read, a sentence each: what was repaired, left
-/// out, or looks wrong.
+/// Returns warnings about a mesh that was read: what was repaired, left out, or looks wrong. One
+/// sentence each.
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);
+/// Returns warnings about a surface that was read: what was left out, or looks wrong. One sentence
+/// each.
 std::vector<std::string> surface_warnings(const SurfaceReport& report);
 
-/// Why a surface has no inside, and where: "has no inside: ...".
+/// Returns why a surface has no inside, and where: "has no inside: ...".
 std::string why_open(const SurfaceReport& report);
 
 }  // namespace plica::app

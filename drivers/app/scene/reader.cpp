@@ -62,8 +62,8 @@ void read_per_level(const Value& value, const std::string& expected, std::vector
   for (std::size_t i = 0; i < target.size(); ++i) read_one(value.item(i), target[i]);
 }
 
-// Where a misplaced key would be right: "body.material or body.regions.<name>"; empty where that
-// says too little
+// Returns the paths where a misplaced key belongs: "body.material or body.regions.<name>". Empty:
+// nowhere, or in more than two places
 std::string homes_of(const std::string& key) {
   std::vector<std::string> homes;
   for (const KeyInfo& info : scene_keys()) {
@@ -210,7 +210,7 @@ void read(const Value& value, const NamedPoints& kind, std::map<std::string, Poi
   for (const Tree& item : value.tree.items) {
     const auto plain = [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-' || c >= 0x80;
-    };  // or UTF-8
+    };  // letters beyond ASCII are UTF-8
     if (item.key.empty() || !std::ranges::all_of(item.key, plain))
       throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'",
                                    value.path, item.key),
@@ -239,7 +239,7 @@ const Tree* Reader::take_alternative(const char* key) {
   return tree;
 }
 
-/// Keys of scenes that are older than the program.
+/// Key of older scenes and the key that replaces it.
 struct Renamed {
   std::string_view key, now;
 };

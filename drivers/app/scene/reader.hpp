@@ -9,22 +9,26 @@
 
 namespace plica::app {
 
-/// A value to be read and the path that led to it.
+/// Value to be read and its path in the scene.
 struct Value {
   const Tree& tree;
   std::string path;
 
+  /// Throws InputError: the value is not what was expected.
   [[noreturn]] void mismatch(const std::string& expected, const std::string& remark = {}) const;
+  /// Throws InputError with the path and the location of the value.
   [[noreturn]] void error(const std::string& message) const;
-  /// its text; an error when it is no scalar
+  /// Returns the text of a scalar. Throws InputError for another value.
   const std::string& scalar(const std::string& expected) const;
-  /// size 0: any
+  /// Returns the items of a list of this size; 0: any size. Throws InputError for another value.
   const std::vector<Tree>& list(const std::string& expected, std::size_t size = 0) const;
+  /// Returns an item of a list.
   Value item(std::size_t index) const;
 };
 
-/// Reads a value of a kind into `target`. InputError with place, value and what is expected. A new
-/// kind needs one more, and one in key_list.cpp.
+/// Reads a value of a kind into `target`. Throws InputError with location, value and what is
+/// expected. A new kind needs one more overload here, and an overload of schema_of() in
+/// key_list.cpp.
 void read(const Value& value, const Quantity& kind, double& target);
 void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target);
 void read(const Value& value, const Vector& kind, Point& target);
@@ -61,15 +65,15 @@ void read(const Value& value, const As<Member, Kind>& as, Target& target) {
   target = std::move(made);
 }
 
-/// What may be left out, and was not.
+/// Reads an optional value, which is given here.
 template <class Kind, class T>
 requires(!std::is_same_v<Kind, AutoQuantity>) void read(const Value& value, const Kind& kind,
                                                         std::optional<T>& target) {
   read(value, kind, target.emplace());
 }
 
-/// Walks the table of one struct and fills it from one map of the scene. Strict: whatever the table
-/// does not name, or the map lacks, is an error with its place.
+/// Visitor of the table of one struct that fills it from one map of the scene. It is strict: a key
+/// that the table does not name, or a required key that is missing, is an error with its location.
 class Reader {
  public:
   explicit Reader(const Value& map);
@@ -89,7 +93,8 @@ class Reader {
     if (const Tree* tree = take_alternative(key)) fill(at(*tree), kind, target);
   }
 
-  /// After the table: unknown keys, missing ones, none or several of the alternatives.
+  /// Throws InputError for unknown keys, missing keys, and none or several of the alternatives. To
+  /// be called after the visit of the table.
   void finish() const;
 
  private:
@@ -170,7 +175,7 @@ class Reader {
   std::vector<Alternatives> choices_;
 };
 
-/// The value of an option of the command line, read and checked as a scene's would be.
+/// Reads and checks the value of an option of the command line like a value of a scene.
 template <class Kind, class Target>
 void read_option(const std::string& option, const std::string& text, const Kind& kind,
                  Target& target) {
@@ -178,13 +183,13 @@ void read_option(const std::string& option, const std::string& text, const Kind&
   read({tree, option}, kind, target);
 }
 
-/// "young_modulus" on the command line: "--young-modulus".
+/// Returns the option of the command line for a key: "--young-modulus" for "young_modulus".
 inline std::string option_of(std::string key) {
   std::ranges::replace(key, '_', '-');
   return "--" + key;
 }
 
-/// Walks a table and fills its struct from options of the command line of the same names.
+/// Visitor of a table that fills its struct from options of the command line with the same names.
 class OptionReader {
  public:
   explicit OptionReader(const std::map<std::string, std::string>& given) : given_(given) {}
@@ -199,7 +204,7 @@ class OptionReader {
   const std::map<std::string, std::string>& given_;
 };
 
-/// Walks the same table and calls add(option, key, what it may be, what it means).
+/// Visitor of a table that calls add(option, key, allowed values, meaning) for each key.
 template <class Add>
 class OptionList {
  public:

@@ -7,9 +7,10 @@
 
 namespace plica::app {
 
-/// A mesh that was read with Flaws::kept, repaired (see repair_mesh()); its report follows, and
-/// gets a sentence for each thing that changed.
-/// @param material  by which the step of the worst element is estimated, before and after
+/// Returns the repaired mesh of one that was read with Flaws::kept, see repair_mesh().
+/// @param report    report of the mesh; its numbers and groups are updated to the repaired mesh
+/// @param material  material for the estimate of the worst element's step, before and after
+/// @param changes   gets a sentence for each kind of change
 TetMesh repaired(const TetMesh& mesh, MeshReport& report, const MaterialOptions& material,
                  std::vector<std::string>& changes);
 

@@ -13,120 +13,127 @@
 #include <string>
 #include <vector>
 
-/// What a scene file says. The physics is the library's Problem; here is what only files have: how
-/// its meshes come about, how long it runs and what it writes.
+/// Contents of a scene file. The physics is the library's Problem. The types here describe what
+/// only files have: how the meshes are made, how long the scene runs, and what it writes.
 namespace plica::app {
 
+/// Mesh of a box, see box_mesh().
 struct BoxRecipe {
-  Point size = Point::Ones();            ///< [m]
-  std::array<int, 3> cells = {1, 1, 1};  ///< along each edge
-  Point origin = Point::Zero();          ///< its lowest corner [m]
+  Point size = Point::Ones();            ///< lengths of the edges [m]
+  std::array<int, 3> cells = {1, 1, 1};  ///< number of cells along each edge
+  Point origin = Point::Zero();          ///< lowest corner [m]
 };
 
+/// Mesh of a ball, see ball_mesh().
 struct BallRecipe {
-  double radius = 1;             ///< [m]
-  int cells = 1;                 ///< across the diameter
-  Point centre = Point::Zero();  ///< [m]
+  double radius = 1;             ///< radius [m]
+  int cells = 1;                 ///< number of cells across the diameter
+  Point centre = Point::Zero();  ///< centre [m]
 };
 
-/// Stands on its base and rises along z.
+/// Mesh of a cylinder whose axis is along z, see cylinder_mesh().
 struct CylinderRecipe {
-  double radius = 1;           ///< [m]
-  double length = 1;           ///< [m]
-  int across = 1;              ///< cells across the diameter
-  int along = 1;               ///< cells along the axis
+  double radius = 1;           ///< radius [m]
+  double length = 1;           ///< height [m]
+  int across = 1;              ///< number of cells across the diameter
+  int along = 1;               ///< number of cells along the axis
   Point base = Point::Zero();  ///< centre of the lower disc [m]
 };
 
-/// See blob_mesh().
+/// Mesh of a lump like a liver, see blob_mesh().
 struct BlobRecipe {
-  double length = 1;             ///< along x [m]
-  int cells = 4;                 ///< across, a multiple of 4
-  Point centre = Point::Zero();  ///< [m]
+  double length = 1;             ///< length along x [m]
+  int cells = 4;                 ///< number of cells across, a multiple of 4
+  Point centre = Point::Zero();  ///< centre of the ball that it is shaped from [m]
 };
 
 /// Lattices over a closed surface, see weighted_lattice().
 struct LatticesRecipe {
-  std::string surface;        ///< a file, relative to the scene
+  std::string surface;        ///< file of the surface, relative to the scene
   double scale = 1;           ///< metres per unit of the file
-  std::vector<double> sizes;  ///< of their cells, finest first [m]
+  std::vector<double> sizes;  ///< cell size of each lattice, finest first [m]
 };
 
-/// One of them, a file, a lattice, or a coarse space of the mesh before.
+/// Source of a level: a generated mesh, a file, a lattice, or a coarse space of the mesh before it.
 struct LevelRecipe {
   std::optional<BoxRecipe> box;
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
   std::optional<BlobRecipe> blob;
   std::optional<Tube> tube;
-  std::optional<double> lattice;  ///< its cells' size, over Scene::lattices' surface [m]
-  std::optional<int> coarsen;     ///< its points; 0: auto, as many spaces as it takes
-  std::string file;               ///< relative to the scene
-  double scale = 1;               ///< metres per unit of the file
-  /// of the file's vertices those this close become one [m]
+  /// cell size of a lattice over the surface of Scene::lattices [m]
+  std::optional<double> lattice;
+  /// number of points of a coarse space; 0: auto, as many spaces as are needed
+  std::optional<int> coarsen;
+  std::string file;  ///< mesh file, relative to the scene
+  double scale = 1;  ///< metres per unit of the file
+  /// distance up to which vertices of the file become one; none: they stay [m]
   std::optional<double> merge_duplicates;
-  bool repair = false;  ///< the file's mesh is repaired: see repair_mesh()
+  bool repair = false;  ///< true: the file's mesh is repaired, see repair_mesh()
 };
 
+/// Triangulated sphere, see sphere_surface().
 struct BallSurfaceRecipe {
-  double radius = 1;            ///< [m]
-  int subdivisions = 3;         ///< of an icosahedron: 12, 42, 162, 642 ... points
-  std::optional<Point> centre;  ///< none: the centre of level 0's bounding box [m]
+  double radius = 1;            ///< radius [m]
+  int subdivisions = 3;         ///< subdivisions of an icosahedron: 12, 42, 162, 642 ... points
+  std::optional<Point> centre;  ///< centre [m]; none: that of level 0's bounding box
 };
 
-/// One of them.
+/// Source of the embedded surface: a sphere, the boundary of level 0, or a file.
 struct SurfaceRecipe {
   std::optional<BallSurfaceRecipe> sphere;
-  bool boundary = false;  ///< the boundary of level 0
-  std::string file;       ///< relative to the scene
+  bool boundary = false;  ///< true: the boundary of level 0
+  std::string file;       ///< surface file, relative to the scene
   double scale = 1;       ///< metres per unit of the file
 };
 
-/// A rigid solid of a file of triangles: scaled, turned about the file's origin, then moved.
+/// Rigid obstacle from a file of triangles: scaled, turned about the file's origin, then moved.
 struct ToolRecipe {
-  std::string file;                ///< relative to the scene
+  std::string file;                ///< surface file, relative to the scene
   double scale = 1;                ///< metres per unit of the file
-  Point rotation = Point::Zero();  ///< its direction is the axis, its length the angle [rad]
-  Point position = Point::Zero();  ///< of the file's origin [m]
-  SurfaceOptions options;          ///< but for its surface, which is the file's
+  Point rotation = Point::Zero();  ///< rotation vector: along the axis, length is the angle [rad]
+  Point position = Point::Zero();  ///< position of the file's origin [m]
+  SurfaceOptions options;          ///< options of the obstacle; its surface comes from the file
 };
 
+/// Obstacle of a scene.
 struct ObstacleRecipe {
   ObstacleOptions options;
-  std::optional<ToolRecipe> tool;  ///< where the shape comes from a file
+  std::optional<ToolRecipe> tool;  ///< source of a shape from a file; none: another shape
 };
 
-/// How a level's mesh is numbered where it comes from. What is read from a file is put in an order
-/// that is faster to simulate; whatever people see has the file's order and numbers.
+/// Mapping between a level's mesh and its input. The mesh of a file is put in an order that is
+/// faster to simulate; output for users has the order and the numbers of the file.
 struct Numbering {
-  Reordering input;             ///< per place in the input its number here; empty: the same
-  std::vector<int> vertex_ids;  ///< per vertex here its number in the file; empty: the same, from 0
-  std::vector<int> tet_ids;     ///< per tetrahedron, likewise
+  /// number in the mesh of each vertex and tetrahedron of the input; empty: equal
+  Reordering input;
+  std::vector<int> vertex_ids;  ///< number in the file of each vertex; empty: equal, from 0
+  std::vector<int> tet_ids;     ///< number in the file of each tetrahedron; empty: equal, from 0
 };
 
-/// The number in the input of vertex or tetrahedron `index`; -1 stays -1.
+/// Returns the number in the file of vertex or tetrahedron `index`; -1 stays -1.
 inline int input_number(const std::vector<int>& ids, int index) {
   return index < 0 || ids.empty() ? index : ids[static_cast<std::size_t>(index)];
 }
 
-/// Values per vertex or tetrahedron in the order of the input.
+/// Returns values per vertex or tetrahedron in the order of the input.
 template <class Value>
 std::vector<Value> in_input_order(const std::vector<Value>& values, const std::vector<int>& order) {
   return order.empty() ? values : permuted(values, order);
 }
 
-/// The mesh as the input has it.
+/// Returns the mesh in the order of the input.
 inline TetMesh in_input_order(const TetMesh& mesh, const Numbering& numbering) {
   return numbering.input.vertices.empty() ? mesh : reordered(mesh, numbering.input);
 }
 
-/// Levels whose tetrahedra are written.
+/// Choice of the levels whose tetrahedra are written.
 struct VolumeLevels {
-  bool all = false;         ///< every level in use
-  std::vector<int> levels;  ///< else these, 0: the finest
+  bool all = false;         ///< true: every level in use
+  std::vector<int> levels;  ///< numbers of the levels if not `all`; 0: the finest
 };
 
-/// One of `bodies`.
+/// One entry of the key `bodies`; the members are those of Scene.
 struct BodyRecipe {
   std::vector<LevelRecipe> levels;
   std::optional<LatticesRecipe> lattices;
@@ -135,32 +142,34 @@ struct BodyRecipe {
   std::optional<SurfaceRecipe> surface;
 };
 
+/// Files that a run writes.
 struct OutputOptions {
-  std::optional<Interval> every;  ///< between frames; none: a sixtieth of the duration
+  std::optional<Interval> every;  ///< interval of frames; none: a sixtieth of the duration
   VolumeLevels volume;
-  std::map<std::string, Point> probes;  ///< points of the body at rest, in level 0 [m]
-  std::optional<Interval> probe_every;  ///< none: every macro step
+  std::map<std::string, Point> probes;  ///< points of level 0 at rest, by name [m]
+  std::optional<Interval> probe_every;  ///< interval of rows; none: every macro step
   std::string format = "vtu";
 };
 
+/// Scene: a problem, where its meshes come from, and what a run or a study of it does.
 struct Scene {
-  std::string file;
-  std::string name;                  ///< none given: the file's
-  double duration = 0;               ///< [s]
-  Problem problem;                   ///< complete once its meshes are built
-  std::vector<Numbering> numbering;  ///< of each of these meshes
-  /// about what was found in it and its files, a sentence each
+  std::string file;                  ///< path of the scene
+  std::string name;                  ///< title; not given: the name of the file
+  double duration = 0;               ///< simulated time [s]
+  Problem problem;                   ///< the physics; complete after the meshes are built
+  std::vector<Numbering> numbering;  ///< numbering of each mesh
+  /// warnings about the scene and its files, one sentence each
   std::vector<std::string> warnings;
-  std::optional<LatticesRecipe> lattices;  ///< what the levels are, if they are lattices
-  std::vector<LevelRecipe> levels;
-  double jitter = 0;  ///< of every level: see jittered()
-  std::optional<SurfaceRecipe> surface;
-  /// instead of the five above; what they make is one body of several parts
+  std::optional<LatticesRecipe> lattices;  ///< source of the levels, if they are lattices
+  std::vector<LevelRecipe> levels;         ///< source of each level, finest first
+  double jitter = 0;                       ///< random displacement of vertices, see jittered()
+  std::optional<SurfaceRecipe> surface;    ///< source of the embedded surface
+  /// several bodies by name, instead of `body`; they are joined to one body of several parts
   std::map<std::string, BodyRecipe> bodies;
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
-  StudyOptions study;  ///< but for its duration, which is the scene's
-  Tree source;         ///< where what was said, with what the command line changed
+  StudyOptions study;  ///< options of a study; its duration is the scene's
+  Tree source;         ///< text of the scene with locations, with the changes of the command line
 };
 
 }  // namespace plica::app

@@ -18,7 +18,8 @@ Where place(const std::string& file, const YAML::Mark& mark) {
   return {file, mark.is_null() ? 0 : mark.line + 1};
 }
 
-// From YAML's nodes, where an alias stands for a value, even for one around it, to a tree of values
+// Converts YAML's nodes to a tree of values. An alias may stand for a value that contains it, so
+// depth and number of values are limited
 class Conversion {
  public:
   explicit Conversion(const std::string& file) : file_(file) {}
@@ -70,8 +71,8 @@ Tree Conversion::operator()(const YAML::Node& node) {
   return tree;
 }
 
-// Only looks where documents begin. (YAML::LoadAll() of yaml-cpp 0.7 never comes back from a stray
-// '}'.)
+// Finds where the documents of a text begin. (YAML::LoadAll() of yaml-cpp 0.7 never returns from a
+// stray '}'.)
 class Documents final : public YAML::EventHandler {
  public:
   static std::optional<YAML::Mark> second_of(const std::string& text) {
@@ -99,7 +100,8 @@ class Documents final : public YAML::EventHandler {
   Mark start_;
 };
 
-// The value that one part of a path leads to: the key of a map or the number of an entry
+// Returns the value that one part of a path leads to. The part is the number of an item of a list,
+// or the key of a map; a missing key is made
 Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
   if (tree.kind == Tree::Kind::list) {
     std::size_t index = 0;
@@ -122,7 +124,7 @@ Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
   return made;
 }
 
-// What a YAML library says of a text, behind what that often comes of.
+// Returns the YAML library's message about a text, after the likely cause.
 std::string fault_of(const std::string& text, const YAML::Exception& error) {
   std::istringstream lines(text);
   std::string line, likely;
@@ -146,10 +148,10 @@ const Tree* Tree::find(std::string_view name) const {
 }
 
 std::string Tree::shown() const {
-  constexpr std::size_t most = 80;  // bytes of a text
+  constexpr std::size_t most = 80;  // maximum length of a text [bytes]
   if (kind == Kind::scalar && text.size() > most) {
     std::size_t end = most;
-    // whole characters
+    // cuts at the end of a character
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
     return "'" + text.substr(0, end) + "...'";
   }
@@ -199,7 +201,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
   std::istringstream path(valid_utf8(assignment.substr(0, equals)));
   for (std::string part; std::getline(path, part, '.');) target = &stepped(*target, part, where);
   const auto place_all = [&where](Tree& tree, const auto& self) -> void {
-    tree.where = tree.key_where = where;  // a line within the argument says nothing
+    tree.where = tree.key_where = where;  // a line number within the argument has no use
     for (Tree& item : tree.items) self(item, self);
   };
   place_all(value, place_all);

@@ -9,48 +9,49 @@
 
 namespace plica::app {
 
-/// A scene as it stands in the file, every value with its place. Nothing is known here about what
-/// the keys mean.
+/// Scene as a tree of values, each with its location in the file. The meaning of the keys is not
+/// known here.
 struct Tree {
+  /// Type of a value.
   enum class Kind { nothing, scalar, list, map };
   Kind kind = Kind::nothing;
-  std::string text;            ///< of a scalar
-  std::vector<Tree> items;     ///< of a list, or the values of a map, in the order of the file
-  std::string key;             ///< under which a map holds it
-  Where where;                 ///< of the value
-  Where key_where;             ///< of its key; for an entry of a list that of the value
-  std::string older_key = {};  ///< the older name of its key that the file has; empty: none
+  std::string text;            ///< text of a scalar
+  std::vector<Tree> items;     ///< items of a list, or values of a map, in the order of the file
+  std::string key;             ///< key of this value in a map; empty: an item of a list
+  Where where;                 ///< location of the value
+  Where key_where;             ///< location of the key; for an item of a list, of the value
+  std::string older_key = {};  ///< older name of the key, as the file has it; empty: none
 
-  /// the value of that key, null when there is none
+  /// Returns the value of a key; null: there is none, or this is no map.
   const Tree* find(std::string_view name) const;
 
-  /// "'4 cm'", "a list of 3", "a map (box, cells)", "nothing": for messages.
+  /// Returns a text for messages: "'4 cm'", "a list of 3", "a map (box, cells)", "nothing".
   std::string shown() const;
 };
 
-/// Reads a YAML file. InputError when it cannot be read, is not YAML, is empty, holds several
-/// documents or a key twice.
+/// Reads a YAML file. Throws InputError if it cannot be read, is not YAML, is empty, or holds
+/// several documents or a key twice.
 Tree read_tree(const std::filesystem::path& file);
 
-/// The same from text; `file` is for messages.
+/// Reads YAML text; `file` is for messages. Throws InputError like read_tree().
 Tree parse_tree(const std::string& text, const std::string& file);
 
-/// Puts a value where "body.material.young_modulus=30 kPa" or "body.levels.0.box.cells=[4, 4, 4]"
-/// says, replacing what is there. A missing key is made, a missing entry of a list is an error.
-/// `label` stands for the place in messages.
+/// Sets or replaces a value: "body.material.young_modulus=30 kPa" or
+/// "body.levels.0.box.cells=[4, 4, 4]". Makes a missing key; throws InputError for a missing entry
+/// of a list. `label` is the location in messages.
 void override_value(Tree& root, const std::string& assignment, const std::string& label);
 
-/// Where the value of "integration.macro_step" stands, or the nearest key above it that the file
-/// has.
+/// Returns the location of a path such as "integration.macro_step". If the file has no such key,
+/// the location is that of the nearest key above it.
 Where place_of(const Tree& root, std::string_view path);
 
-/// A scene as JSON, its values as the words that stand there, and back; places are lost but for the
-/// file.
+/// Returns a scene as JSON, with its values as texts. Locations are lost.
 nlohmann::ordered_json json_of(const Tree& tree);
+/// Returns the scene that json_of() has written. All locations are `file`, without lines.
 Tree tree_of(const nlohmann::ordered_json& json, const std::string& file);
 
-/// Where two scenes first differ: "body.material.density: '1000' became '900'"; empty where they
-/// say the same in whatever order. A key of the top level may be left out of this.
+/// Returns where two scenes first differ: "body.material.density: '1000' became '900'". Empty: they
+/// are equal; the order of keys does not matter. The key `but_for` of the top level is ignored.
 std::string first_difference(const Tree& before, const Tree& now, const std::string& but_for = {});
 
 }  // namespace plica::app

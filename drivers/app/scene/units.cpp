@@ -19,7 +19,7 @@ struct Unit {
   const char* symbol;
   double factor;
   Dimension dimension;
-  bool prefixed;  // may follow k, m, ...
+  bool prefixed;  // true: takes prefixes k, m, ...
 };
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::array units = {Unit{"m", 1, length, true},
@@ -37,7 +37,7 @@ constexpr std::array units = {Unit{"m", 1, length, true},
                               Unit{"%", 1e-2, plain, false},
                               Unit{"1", 1, plain, false}};
 
-Dimension times(const Dimension& a, const Dimension& b, int n) {  // a b^n
+Dimension times(const Dimension& a, const Dimension& b, int n) {  // returns a b^n
   return {a.mass + n * b.mass, a.length + n * b.length, a.time + n * b.time, a.angle + n * b.angle};
 }
 
@@ -74,7 +74,7 @@ Measured unit_named(std::string_view symbol) {
   unknown_unit(symbol);
 }
 
-// One factor of a product, with its exponent: "m^3", "s2", "kPa"
+// Multiplies a product by one factor with its exponent: "m^3", "s2", "kPa"; sign -1 divides
 void multiply(Measured& product, std::string_view factor, int sign) {
   const auto end = std::min(factor.find('^'), factor.find_first_of("0123456789", 1));
   const Measured unit = unit_named(trimmed(factor.substr(0, end)));
@@ -105,7 +105,7 @@ Measured unit_product(std::string_view text) {
   }
 }
 
-// How many characters of the text, from its start, make up a number; 0: none do
+// Reads the number at the start of the text. Returns its number of characters; 0: no number
 std::size_t number_prefix(std::string_view text, double& value) {
   const std::size_t sign = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
   const auto [rest, error] = std::from_chars(text.begin() + sign, text.end(), value);
@@ -202,10 +202,10 @@ std::string text_of(const Interval& interval) {
   return fmt::format("{:g} s", interval.time);
 }
 
-// How many multiples were passed by then, the zeroth among them. 3 s are 100 steps of 30 ms,
-// whatever the last bit says
+// Returns the number of multiples passed at this step, with the zeroth one. Rounding is allowed
+// for, so that 3 s are 100 steps of 30 ms
 long Schedule::count(long macro_step) const {
-  constexpr double rounding = 1e-9;  // of a step
+  constexpr double rounding = 1e-9;  // part of a step that is ignored
   if (macro_step < 0) return 0;
   if (every_.steps > 0) return macro_step / every_.steps + 1;
   if (every_.time < step_) return macro_step + 1;

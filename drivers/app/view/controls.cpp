@@ -30,7 +30,7 @@ Point point_in(const ControlJson& from, const char* name) {
   return {(*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>()};
 }
 
-// A member that may be null
+// Returns a member that is an object; null: there is none, or it is null
 const ControlJson* object_in(const ControlJson& from, const char* name) {
   const auto found = from.find(name);
   return found != from.end() && found->is_object() ? &*found : nullptr;

@@ -7,39 +7,39 @@
 
 namespace plica::app {
 
-/// Where the body is held, and where to.
+/// Pull of the user: the grasped point of the body and its target.
 struct Pull {
-  Point at = Point::Zero();      ///< on the body as it rests [m]
-  Point target = Point::Zero();  ///< [m]
+  Point at = Point::Zero();      ///< grasped point on the body at rest [m]
+  Point target = Point::Zero();  ///< position to pull the point to [m]
 };
 
-/// A ball that one moves about.
+/// Ball that the user moves.
 struct BallTool {
-  Point centre = Point::Zero();  ///< [m]
-  double radius = 0;             ///< [m]
+  Point centre = Point::Zero();  ///< centre [m]
+  double radius = 0;             ///< radius [m]
 };
 
-/// Where an obstacle of the scene is asked to be.
+/// Target of an obstacle of the scene that the user moves.
 struct ObstacleAim {
-  int obstacle = 0;                    ///< counts from 0
-  Point displacement = Point::Zero();  ///< from where its shape says [m]
+  int obstacle = 0;                    ///< number of the obstacle, from 0
+  Point displacement = Point::Zero();  ///< displacement from the place in its shape's options [m]
 };
 
-/// What the page of a live view may change while the scene runs.
+/// Settings that a user of the live view can change while the scene runs.
 struct Controls {
-  bool running = true;
-  int restarts = 0;          ///< so many times the start was asked for
-  double speed = 1;          ///< simulated seconds per second, at most
-  double gravity = 0;        ///< along the scene's own, or down where it has none [m/s^2]
-  double stiffness = 0;      ///< of the spring that pulls [N/m]
-  std::string colour;        ///< "", displacement, speed, von_mises or J
-  std::optional<Pull> pull;  ///< none: it is let go
-  std::optional<BallTool> tool;
-  std::vector<ObstacleAim> moved;  ///< the others move as the scene says
+  bool running = true;             ///< false: the simulation is paused
+  int restarts = 0;                ///< number of restarts that the user has asked for
+  double speed = 1;                ///< maximum simulated seconds per second
+  double gravity = 0;              ///< gravity along the scene's, or down if it has none [m/s^2]
+  double stiffness = 0;            ///< stiffness of the spring that pulls [N/m]
+  std::string colour;              ///< "", displacement, speed, von_mises or J
+  std::optional<Pull> pull;        ///< none: the body is released
+  std::optional<BallTool> tool;    ///< none: there is no ball
+  std::vector<ObstacleAim> moved;  ///< targets of obstacles; all others move as in the scene
 };
 
-/// From the page's message, in JSON. InputError that says which member is not as it should be, and
-/// what was expected.
+/// Reads the controls from the page's message in JSON. Throws InputError that names the wrong
+/// member and what was expected.
 Controls controls_of(const std::string& text);
 
 }  // namespace plica::app

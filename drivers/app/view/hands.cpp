@@ -8,21 +8,22 @@
 namespace plica::app {
 namespace {
 
-constexpr double patch = 0.06;  // radius of what is held, over the body's size
-// a spring pulls no more than at this length, over the body's size
+constexpr double patch = 0.06;  // radius of the grasped patch, over the body's size
+// maximum length of the spring that counts for its force, over the body's size
 constexpr double longest_pull = 0.1;
-constexpr double hand_speed = 2;  // the body's sizes per second; simulated
-constexpr double ball_speed = 1;  // likewise
-// h^2 k / m of a vertex; with its own stiffness it has to stay below 4
+constexpr double hand_speed = 2;  // maximum speed of the hand, in body sizes per simulated second
+constexpr double ball_speed = 1;  // maximum speed of the ball, in body sizes per simulated second
+// maximum of h^2 k / m of a pulled vertex; with its own stiffness this must stay below 4
 constexpr double pull_limit = 0.1;
-constexpr double push_limit = 0.25;   // likewise
-constexpr double ball_stiffness = 2;  // of a touched vertex, over Young's modulus times an edge
+// maximum of h^2 k / m of a pushed vertex; with its own stiffness this must stay below 4
+constexpr double push_limit = 0.25;
+constexpr double ball_stiffness = 2;  // stiffness at a vertex, over Young's modulus times an edge
 constexpr double damping_ratio = 0.3;
-constexpr double whole_pull = 0.6;  // while no element has less than this of its volume
-constexpr double no_pull = 0.25;    // where one has no more than this
-constexpr double least_grip = 1e-3;
-constexpr double regained = 1.02;  // a step
-constexpr double look_every = 4;   // critical steps of the finest level
+constexpr double whole_pull = 0.6;   // full pull while every element has this part of its volume
+constexpr double no_pull = 0.25;     // no pull if an element has only this part of its volume
+constexpr double least_grip = 1e-3;  // grip below which give_way() does not help
+constexpr double regained = 1.02;    // factor on the grip per macro step, up to 1
+constexpr double look_every = 4;     // time between checks of volumes, in critical steps of level 0
 
 template <class Rows>
 Point row(const Rows& rows, std::size_t i) {
@@ -94,7 +95,7 @@ void Hands<B>::advance() {
   if (tool_) tool_->centre = ball_.place;
 }
 
-// By the volumes of level 0's tetrahedra, or of nodal elements of those around a vertex together
+// Uses the volumes of level 0's tetrahedra; for nodal elements, the sum of those around a vertex
 template <class B>
 double Hands<B>::bearing(const ForceRequest<B>& request) const {
   std::vector<double> rest(nodal_ ? mesh_.vertices.size() : 0), now(rest);
@@ -144,7 +145,7 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
   level.grip = grips_;
   level.held.clear(), level.weight.clear(), level.offset.clear();
   const double radius = std::max(patch * size_, 1.2 * level.edge);
-  double sum = 1e-300;  // nothing may be near
+  double sum = 1e-300;  // above 0, since no vertex may be near
   Point middle = Point::Zero();
   for (std::size_t i = 0; i < level.mass.size(); ++i) {
     const double w = 1 - (row(request.rest, i) - controls_.pull->at).norm() / radius;
@@ -153,14 +154,15 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
     level.offset.push_back(row(request.rest, i) + row(request.displacement, i));
     sum += w, middle += w * level.offset.back();
   }
-  // wherever the mouse is by now
+  // starts at the middle of the patch, wherever the mouse is
   if (!placed_ && !level.held.empty()) hand_.place = middle / sum, placed_ = true;
   for (std::size_t j = 0; j < level.held.size(); ++j)
     level.weight[j] /= sum, level.offset[j] -= middle / sum;
 }
 
-// Cycle him makes what is finer than its step resolves as heavy as that bears: of a patch, as if
-// the step were so much shorter.
+// Returns the stiffness m / h^2 of a vertex for a step h; infinite on implicit levels. Cycle him
+// adds inertia to motion that is finer than its step resolves. For a patch this has the effect of a
+// shorter step h.
 template <class B>
 double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request,
                                 std::size_t vertex, double radius) const {
@@ -171,8 +173,8 @@ double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& 
   return level.mass[vertex] / (step * step);
 }
 
-// Every vertex of the patch is pulled to its place in the patch as it was taken hold of: as by
-// forceps, not by a thread.
+// Pulls every vertex of the patch to its place in the patch at the time of the grasp, like forceps.
+// A thread would pull all vertices to one point.
 template <class B>
 void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
   using Real = typename B::Real;

@@ -26,10 +26,10 @@ namespace {
 using LiveJson = nlohmann::ordered_json;
 using LiveClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds frame_time(33);
-constexpr double longest_debt =
-    0.1;  // of simulated time that is behind, in seconds of the clock; older debts are forgotten
+// maximum delay of the simulated time, in seconds of the clock; a longer delay is dropped
+constexpr double longest_debt = 0.1;
 
-constexpr double obstacle_speed = 1;  // the body's sizes per second; simulated
+constexpr double obstacle_speed = 1;  // maximum speed, in body sizes per simulated second
 
 double seconds(LiveClock::duration time) { return std::chrono::duration<double>(time).count(); }
 
@@ -39,7 +39,7 @@ std::string in_base64(const std::vector<float>& values) {
   return base64(values.data(), values.size() * sizeof(float));
 }
 
-/// The body as the page sees it: the boundary of level 0.
+/// Surface of the body that the page shows: the boundary of level 0.
 struct Skin {
   BoundarySurface boundary;
   Point low, high;
@@ -58,7 +58,7 @@ struct Skin {
   }
 };
 
-/// How fast time went in the last second or so.
+/// Speed of the simulation, averaged over about the last second (time constant 0.7 s).
 class Speed {
  public:
   void add(double simulated, double stepping, LiveClock::duration wall) {
@@ -143,7 +143,7 @@ class LiveView {
     words_.clear();
   }
 
-  // A macro step, if it is time for one
+  // Takes a macro step if one is due; returns whether it did
   bool keep_pace(const Controls& controls, LiveClock::time_point before) {
     const auto start = LiveClock::now();
     debt_ += controls.speed * seconds(start - before);
@@ -166,7 +166,7 @@ class LiveView {
 
   const std::vector<ObstacleOptions>& obstacles() const { return scene_.problem.contact.obstacles; }
 
-  // At a bounded speed
+  // Moves obstacles towards their targets, at a bounded speed
   void move_obstacles_to(const std::vector<ObstacleAim>& aims) {
     const double reach = obstacle_speed * skin_.size() * simulation_.macro_step();
     for (const ObstacleAim& aim : aims) {
@@ -179,7 +179,7 @@ class LiveView {
     }
   }
 
-  // Where those are that do not move as the scene says, and how strongly they push
+  // Returns displacement [m] and force [N] of the obstacles that the user moves
   LiveJson moved() const {
     LiveJson list = LiveJson::array();
     if (moved_.empty()) return list;
@@ -234,7 +234,8 @@ class LiveView {
     return data.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
   }
 
-  // Per vertex of the skin; none: the page knows them, or there are none
+  // Returns the values that colour each vertex of the surface. Empty: the page computes them, or
+  // there are none
   std::vector<float> values_of(const std::string& colour) const {
     std::vector<double> all;
     if (colour == "speed")
@@ -250,7 +251,7 @@ class LiveView {
     return values;
   }
 
-  // Of a linear element's vertex the mean of its tetrahedra
+  // Returns values at vertices. For linear elements it is the mean over the tetrahedra at a vertex
   std::vector<double> at_vertices(const ElementFields& fields,
                                   const std::vector<double>& values) const {
     if (fields.per_vertex) return values;
@@ -270,13 +271,13 @@ class LiveView {
   Skin skin_;
   Hands<B> hands_;
   SavedState first_;
-  std::mutex mutex_;  // of what is said
+  std::mutex mutex_;  // protects said_
   Controls said_;
   int restarts_ = 0;
-  std::set<int> moved_;  // obstacles by the mouse, since the start
+  std::set<int> moved_;  // obstacles that the user has moved since the start
   double debt_ = 0;      // simulated time that is due [s]
   Speed speed_;
-  std::string words_;  // why it cannot go on
+  std::string words_;  // why the simulation cannot continue; empty: it can
 };
 
 }  // namespace

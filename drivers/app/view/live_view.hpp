@@ -10,25 +10,26 @@
 
 namespace plica::app {
 
-/// How a simulation is watched.
+/// Options of a live view.
 struct LiveOptions {
-  const Port& port;         ///< of the page's address
-  std::string method = {};  ///< that runs, in words
-  /// is called once with the page's address
+  const Port& port;         ///< port of the page's address
+  std::string method = {};  ///< method that runs, as text
+  /// called once with the page's address
   std::function<void(const std::string&)> listening = {};
-  std::function<bool()> ended =
-      {};  ///< is asked between macro steps, fifty times a second or more often: whether to return
+  /// called between macro steps, at least fifty times a second; true ends the view
+  std::function<bool()> ended = {};
 };
 
-/// The method in words: the cycle, its macro step, and which error it was chosen for, if it was.
+/// Returns the method as text: the cycle, its macro step, and the error class of its choice, if
+/// any.
 template <class B>
 std::string live_method(const Scene& scene, const Simulation<B>& simulation,
                         const std::optional<CycleChoice>& choice);
 
-/// Serves a page that shows the simulation while it goes on, from the state that it has, and lets
-/// one pull at the body, push it with a ball and change gravity. It rests while no page is open.
-/// Adds its forces to `forces`, the simulation's own, which are alone again at the end. InputError
-/// where the back end is not on the host.
+/// Simulates from the present state and serves a page that shows it. A user of the page can pull
+/// the body, push it with a ball and change gravity. The simulation pauses while no page is open.
+/// The user's forces are added to `forces`, the simulation's external forces; at the end `forces`
+/// act alone again. Throws InputError if the back end is not on the host.
 template <class B>
 void show_live(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options,
                const ExternalForces<B>& forces = {});

@@ -38,7 +38,7 @@ bool send_answer(int socket, const char* status, const char* kind, std::string_v
          send_all(socket, text);
 }
 
-// More of what the other side says; whether there was some
+// Appends received bytes to the buffer; returns false if there were none
 bool receive(int socket, std::string& buffer) {
   char bytes[4096];
   ssize_t count = 0;
@@ -55,7 +55,7 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-// The value of a line such as "Host: localhost:8642" in a head
+// Returns the value of a field in the head of a request, such as "Host: localhost:8642"
 std::string field(const std::string& head, const std::string& name) {
   const std::string small = in_small_letters(head), start = "\r\n" + name + ":";
   const std::size_t found = small.find(start);
@@ -65,8 +65,8 @@ std::string field(const std::string& head, const std::string& name) {
   return head.substr(from, to - from);
 }
 
-// Pages of others, which a browser shows too, may not speak to this server: only names of this
-// machine are answered, and only to pages that came from here.
+// Returns true if the request is for a name of this machine and comes from a page of this server. A
+// browser shows pages of other servers too; they may not speak to this server.
 bool is_ours(const std::string& host, const std::string& origin) {
   const std::string name = host.substr(0, host.find(':'));
   return (name == "127.0.0.1" || name == "localhost") &&
@@ -194,7 +194,7 @@ bool WebServer::read_request(int socket, std::string& buffer, Request& request) 
   return true;
 }
 
-// Whether the connection goes on
+// Answers a request; returns whether the connection stays open
 bool WebServer::answer(int socket, const Request& request) {
   constexpr const char* words = "text/plain; charset=utf-8";
   if (!is_ours(request.host, request.origin))

@@ -10,40 +10,41 @@
 
 namespace plica::app {
 
-/// A port of this machine (127.0.0.1), taken from here to the end of the scope. Who connects to it
+/// Port of this machine (127.0.0.1), open while the object exists. A browser that connects to it
 /// waits until a WebServer answers.
 class Port {
  public:
-  /// 0: any that is free. InputError where it is in use, or not ours to take.
+  /// Opens the port; 0: any free one. Throws InputError if it is in use or not allowed.
   explicit Port(int number);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  int number() const;
-  int socket() const { return socket_; }
+  int number() const;                     ///< number of the port
+  int socket() const { return socket_; }  ///< file descriptor of the listening socket
 
  private:
   int socket_;
 };
 
-/// Serves one page to browsers on this machine: GET / is the page, GET /frames the frames as
-/// server-sent events (https://html.spec.whatwg.org/multipage/server-sent-events.html), POST
-/// /controls takes what the page says. Threads of its own do that, until it is destroyed.
+/// Serves one page to browsers on this machine, on its own threads, until it is destroyed. GET /
+/// returns the page. GET /frames returns the frames as server-sent events
+/// (https://html.spec.whatwg.org/multipage/server-sent-events.html). POST /controls takes messages
+/// of the page.
 class WebServer {
  public:
-  /// take(text) is called with each message of the page, on another thread; an empty answer:
-  /// understood, else what is wrong with it.
+  /// Function that takes a message of the page, on another thread. It returns an empty text, or
+  /// what is wrong with the message.
   using Take = std::function<std::string(const std::string&)>;
-  /// The port outlasts it, and is of no use to another server.
+  /// Starts the server. The port must outlive it, and cannot be used by another server afterwards.
   WebServer(const Port& port, std::string page, Take take);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  /// Sends a frame, one line of text, to whoever watches. Does not wait: who is slow misses some.
+  /// Sends a frame, one line of text, to all open pages. Does not wait: a slow page misses frames.
   void publish(std::string frame);
-  /// How many pages watch.
+  /// Returns the number of open pages.
   int watchers() const;
 
  private:
@@ -64,7 +65,7 @@ class WebServer {
   std::string page_;
   Take take_;
   int listener_ = -1;
-  mutable std::mutex mutex_;  // of all below
+  mutable std::mutex mutex_;  // protects all members below
   std::condition_variable news_;
   std::shared_ptr<const std::string> frame_;
   long frames_ = 0;

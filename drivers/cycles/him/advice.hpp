@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-// Whether the cycle him is right for a scene with obstacles. The numbers were measured, see
+// Advice on the cycle him for a scene with obstacles. The numbers were measured, see
 // cmake/docs/him.md.
 namespace plica {
 
-/// The largest speed of a given motion [m/s].
+/// Returns the largest speed of a given motion [m/s].
 inline double fastest(const Motion& motion) {
   if (const auto* steady = std::get_if<SteadyMotion>(&motion)) return steady->velocity.norm();
   if (const auto* sine = std::get_if<SineMotion>(&motion))
@@ -27,8 +27,9 @@ inline double fastest(const Motion& motion) {
   return most;
 }
 
-/// The largest speed that an obstacle's motion and its turn give what it has where the body is, as
-/// that starts [m/s].
+/// Returns the largest speed of the obstacles near the body at its start [m/s].
+/// It is the speed of an obstacle's motion plus that of its turn, at the distance from the axis
+/// that both the body and the obstacle reach.
 inline double fastest_obstacle(const Problem& problem) {
   double most = 0;
   for (const ObstacleOptions& o : problem.contact.obstacles) {
@@ -46,7 +47,8 @@ inline double fastest_obstacle(const Problem& problem) {
   return most;
 }
 
-/// A sentence where a tool is too fast for him: it excites detail, which him slows. Else nothing.
+/// Returns a sentence where an obstacle is too fast for him, else an empty string.
+/// A fast obstacle excites detail, which him slows. `edge`: mean edge of the finest level [m].
 inline std::string too_fast_for_him(const Problem& problem, double macro_step, double edge) {
   constexpr double most = 0.1;  // edges per step: there the error of displacement was 10 %
   const double speed = fastest_obstacle(problem), edges = speed * macro_step / edge;
@@ -57,7 +59,7 @@ inline std::string too_fast_for_him(const Problem& problem, double macro_step, d
               number(most * edge / speed, 3), " s, or cycle: single");
 }
 
-/// A sentence where no inertia fitted the automatic step. Else nothing.
+/// Returns a sentence where no inertia fitted the automatic step, else an empty string.
 inline std::string shorter_than_usual(const HimReport& him, double macro_step) {
   if (!(him.usual_step > (1 + 1e-9) * macro_step)) return {};
   return text("cycle him: no inertia fits the automatic macro step of ", number(him.usual_step, 3),
@@ -66,8 +68,7 @@ inline std::string shorter_than_usual(const HimReport& him, double macro_step) {
               "auto}, or cycle: single");
 }
 
-/// What is to be known before a run, a sentence each: of its step, and what the levels lack for
-/// contact.
+/// Returns sentences to print before a run: on its step, and on levels too coarse for contact.
 inline std::vector<std::string> him_advice(const Problem& problem, const HimReport& him,
                                            const std::vector<LevelReport>& levels,
                                            double macro_step) {

@@ -5,10 +5,11 @@
 #include <plica/kernels/him/momentum_of.hpp>
 #include <plica/kernels/vectors.hpp>
 
+// Symbols of cmake/docs/him.md: A is the argument A(p, v), which sets v = A p; p are the momenta.
 namespace plica {
 
-/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-6 of v: at most
-/// sqrt(inertia added) iterations or so. Waits.
+/// Solves A p = v for p by conjugate gradients preconditioned by the mass, to 1e-6 of v. Waits.
+/// It takes about sqrt(inertia added) iterations at most.
 template <class B>
 void momentum_of(const typename B::Exec& exec, const Model<B>& model,
                  const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A,
@@ -28,7 +29,7 @@ void momentum_of(const typename B::Exec& exec, const Model<B>& model,
     return host_values(exec, sum)[0];
   };
   weigh<B>(exec, "plica::momentum", model, 1, v, 0, v, p);
-  const double whole = read(StartResidual<B>{model, v, As, r});  // As is still 0
+  const double whole = read(StartResidual<B>{model, v, As, r});  // v.m v, since As is 0
   A(p, As);
   double square = read(StartResidual<B>{model, v, As, r});
   double beta = 0;

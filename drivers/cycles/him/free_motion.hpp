@@ -4,10 +4,12 @@
 #include <plica/kernels/him/leapfrog.hpp>
 #include <plica/kernels/vectors.hpp>
 
+// Symbols of cmake/docs/him.md: p are momenta. A is the inverse mass without the exact translation,
+// A' the one with it.
 namespace plica {
 
-/// Translation of a body that nothing holds, answered exactly: A' = (1 - T) A (1 - T)^T + 1 1^T /
-/// mass, T the mean by mass; and its momenta without rigid motion.
+/// Exact translation of a body that nothing holds, and the rigid part of its momenta.
+/// A' = (1 - T) A (1 - T)^T + 1 1^T / mass, T the mean by mass: a translation has the whole mass.
 template <class B>
 class FreeMotion {
  public:
@@ -19,8 +21,8 @@ class FreeMotion {
         total_(zeros<Doubles<B>>("plica::free.total", 4)),
         frame_("plica::free.frame") {}
 
-  /// Notes the sum of the momenta p; `rest`: what is not translation. With a count only where that
-  /// is above 0.
+  /// Stores the sum of the momenta p, and sets `rest` to p without translation.
+  /// With a `count` on the device, only where that is above 0.
   void take_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& p,
                         const Vectors<B>& rest, const Doubles<B>& count) const {
     sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
@@ -29,7 +31,8 @@ class FreeMotion {
                       TakeTranslation<B>{model.mass, p, rest, total_});
   }
 
-  /// Makes it the sum of m v; likewise.
+  /// Changes the mean of v so that the sum of m v is the stored sum of momenta.
+  /// With a `count` on the device, only where that is above 0.
   void put_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
                        const Doubles<B>& count) const {
     sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
@@ -38,7 +41,7 @@ class FreeMotion {
                       PutTranslation<B>{v, total_, sums_});
   }
 
-  /// The rigid part of p - m v at a state.
+  /// Returns the rigid part of p - m v at a state.
   RigidMotion<B> rigid_part(const Exec& exec, const VertexModel<B>& model, const State<B>& state,
                             const Vectors<B>& p) const {
     reduce<B, 16>(exec, "plica::free_moments", vertices(),
@@ -46,14 +49,14 @@ class FreeMotion {
                   SetRigidFrame<B>{sums_, frame_});
     return {rest_, state.u, frame_};
   }
-  /// The kick, and what it leaves but for translation, whose sum is noted.
+  /// Kicks the momenta, stores their sum and sets `rest` to the momenta without translation.
   void kick(const Exec& exec, const VertexModel<B>& model, const KickMomentum<B>& kick,
             const Vectors<B>& rest) const {
     reduce<B, 4>(exec, "plica::him_momenta", vertices(), KickAndSum<B>{kick}, blocks_, total_);
     update_vertices<B>(exec, "plica::free_take", vertices(),
                        TakeTranslation<B>{model.mass, kick.p, rest, total_});
   }
-  /// a = (a - v) / t, of a = A p with the translation.
+  /// Adds the translation to a = A p, and turns it into mean accelerations a = (a - v) / t.
   void accelerate(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
                   const Vectors<B>& a, double t) const {
     reduce<B, 4>(exec, "plica::free_total", vertices(), SumOfMotion<B>{model.mass, a}, blocks_,

@@ -4,31 +4,34 @@
 #include <plica/drivers/cycles/him/free_motion.hpp>
 #include <plica/drivers/cycles/him/inertia.hpp>
 
+// Symbols of cmake/docs/him.md: A is HimParts::inverse_mass, with the translation of
+// HimParts::free. u, v are state_, f is f_, p is HimFields::p, F is found in kick(). gamma is
+// HimParts::fit.scale.
 namespace plica {
 
-/// What the stepper `him` has of one body.
+/// Data of the stepper `him` for one body.
 template <class B>
 struct HimParts {
-  RowsOfBody rows;  ///< its vertices among those of the level
+  RowsOfBody rows;  ///< rows of its vertices among those of the level
   std::unique_ptr<InverseMass<B>> inverse_mass;
   std::unique_ptr<InertiaFitter<B>> fitter;
-  std::optional<FreeMotion<B>> free;  ///< of a body that nothing holds
+  std::optional<FreeMotion<B>> free;  ///< only for a body that nothing holds
   InertiaFit fit;
-  /// The level by whose critical step an automatic one goes: without coarser meshes the one below a
-  /// space for slivers.
+  /// Level whose critical step the automatic step is a multiple of: 0, the finest.
+  /// It is 1 without coarser meshes where level 1 is a space for slivers.
   std::size_t detail = 0;
-  std::vector<std::size_t> places;  ///< of its levels among those that are reported, finest first
+  std::vector<std::size_t> places;  ///< [levels] place of each among the reports, finest first
 };
 
-/// Fields of the finest level that `him` carries, of all its bodies.
+/// Fields of the finest level that `him` needs, for all bodies.
 template <class B>
 struct HimFields {
   Vectors<B> p;                            ///< momenta [kg m/s], 0 where the motion is given
-  Vectors<B> g;                            ///< work space
+  Vectors<B> g;                            ///< work space: momenta without translation
   Vectors<B> a;                            ///< mean accelerations over the step [m/s^2]
-  Vectors<B> force_before, answer_before;  ///< the last step's
-  ContactForces<B> contact;                ///< the last step's; empty without contact
-  Vectors<B> contact_answer;               ///< accelerations by them [m/s^2]
+  Vectors<B> force_before, answer_before;  ///< f [N] and a [m/s^2] of the last step
+  ContactForces<B> contact;                ///< forces of the last step; empty without contact
+  Vectors<B> contact_answer;               ///< accelerations by contact's forces [m/s^2]
 
   HimFields() = default;
   HimFields(int vertices, bool touches, const Doubles<B>& touching)
@@ -45,7 +48,7 @@ struct HimFields {
         zeros<Vectors<B>>("plica::him.contact_answer", static_cast<std::size_t>(vertices));
   }
 
-  /// One body's rows.
+  /// Returns one body's rows of all fields, without a copy.
   HimFields of(const RowsOfBody& rows) const {
     HimFields some;
     some.p = rows.of(p), some.g = rows.of(g), some.a = rows.of(a);
@@ -59,9 +62,10 @@ struct HimFields {
   }
 };
 
-/// One body's own part of a step of the hierarchical inverse mass. The inverse mass of several
-/// bodies is block diagonal: each has its coarser levels, its axes, its fit and, where nothing
-/// holds it, its translation. Its fields are rows of the level's.
+/// Part of one body in a step of the hierarchical inverse mass.
+/// The inverse mass of several bodies is block diagonal. Each body has coarser levels, frames, a
+/// fit and, where nothing holds it, a translation of its own. Its fields are rows of the level's
+/// fields.
 template <class B>
 class HimBody {
   using Real = typename B::Real;
@@ -85,29 +89,29 @@ class HimBody {
     scale_at(0) = parts_.fit.scale;
   }
 
-  static constexpr int most_halvings = 6;  ///< of a step
+  static constexpr int most_halvings = 6;  ///< maximum halvings of a step
   const HimParts<B>& parts() const { return parts_; }
   InertiaFitter<B>& fitter() { return *parts_.fitter; }
 
-  /// Fits the inertia to the state u of all bodies, for a step of `t` that was halved so often;
-  /// false where nothing fits.
+  /// Fits the inertia to the state u of all bodies, for a step of `t` [s] after `halvings`.
+  /// Returns false where nothing fits.
   bool fit(double t, double sigma, int halvings, const Vectors<B>& u) {
     const auto fit = parts_.fitter->fit(t, sigma, u);
     if (fit) parts_.fit = *fit, scale_at(halvings) = fit->scale;
     return fit.has_value();
   }
-  /// The last fit with so many halvings, if there was one.
+  /// Returns true where there was a fit with so many halvings; use_fit() uses the last of these.
   bool has_fit(int halvings) const { return scales_[static_cast<std::size_t>(halvings)] > 0; }
   void use_fit(double t, double sigma, int halvings) {
     parts_.fit = parts_.fitter->use(t, sigma, scale_at(halvings));
   }
 
-  /// Turns the axes with the state u of all bodies.
+  /// Turns the frames with the state u of all bodies.
   void turn(const Exec& exec, const Vectors<B>& u) const {
     parts_.inverse_mass->turn(exec, parts_.rows.of(u));
   }
 
-  /// v = A p in this body's rows; with a count only where that is above 0.
+  /// Sets v = A p in this body's rows. With a `count` on the device, only where that is above 0.
   void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v,
               const Doubles<B>& count = {}) const {
     const Vectors<B> momenta = parts_.rows.of(p), answer = parts_.rows.of(v);
@@ -117,8 +121,8 @@ class HimBody {
     parts_.free->put_translation(exec, model_, answer, count);
   }
 
-  /// The kick by the level's forces over a time t, and the force by which the axes act on what it
-  /// leaves.
+  /// Kicks the momenta by the level's forces over a time t [s], and finds the force F of frames for
+  /// the result.
   void kick(const Exec& exec, double dissipation, double t) const {
     parts_.inverse_mass->turn(exec, state_.u);
     KickMomentum<B> kick{.model = model_,
@@ -138,7 +142,7 @@ class HimBody {
     parts_.inverse_mass->find_push(exec, parts_.free ? fields_.g : fields_.p, t);
   }
 
-  /// The push that kick() found, and the mean acceleration a = (A p - v) / t.
+  /// Adds the force that kick() found, p += t F, and sets mean accelerations a = (A p - v) / t.
   void push_and_accelerate(const Exec& exec, double t) const {
     if (!parts_.free)
       return parts_.inverse_mass->push_and_accelerate(exec, t, fields_.p, state_.v, fields_.a);
@@ -146,7 +150,8 @@ class HimBody {
     parts_.free->accelerate(exec, model_, state_.v, fields_.a, t);
   }
 
-  /// The velocities at the end of the step, the second drift, and what is watched.
+  /// Sets the velocities at the end of the step, drifts by half a step, and updates the watch on
+  /// stability.
   void finish(const Exec& exec, double t) {
     const KickAndDrift<B> finish{.inverse_mass = model_.inverse_mass,
                                  .state = state_,
@@ -166,14 +171,15 @@ class HimBody {
     first_ = false;
   }
 
-  /// What the next step takes from the last, but for momenta and contact.
+  /// Forgets what the next step would take from the last, except momenta and contact.
   void forget(const Exec& exec) {
     first_ = true;
     fill(exec, watch_, 0.0), fill(exec, turned_, 0.0);
     fill(exec, parts_.inverse_mass->axes().share(), Real(0));
   }
 
-  /// Whether steps have shown to be unstable: the spectrum, or the axes' force. Waits.
+  /// Returns true where steps were unstable: by the spectrum, or F was not found. Waits.
+  /// See WatchSpectrum.
   bool lost_stability(const Exec& exec) const {
     exec.fence("plica::him_watch");
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1) > 0;
@@ -202,7 +208,7 @@ class HimBody {
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
   bool first_ = true;  // no step since the state was set
-  // of the last fit with so many halvings; 0: none
+  // [halvings] gamma of the last fit with so many halvings; 0: none
   std::array<double, most_halvings + 1> scales_ = {};
 
   double& scale_at(int halvings) { return scales_[static_cast<std::size_t>(halvings)]; }

@@ -13,20 +13,21 @@ namespace plica {
 
 namespace {
 
-// Times the critical step of the finest level; over spaces made of it, slivers left out
+// Automatic step over the critical step of the finest level, or of the space for slivers made of
+// its mesh
 constexpr double automatic_step = 8, step_with_contact = 4;
-/// Vertices of the coarsest mesh above which a space below it costs less than its dense matrix:
-/// cmake/docs/him.md.
+/// Maximum vertices of the coarsest mesh for which its dense matrix costs less than a space below
+/// it. See cmake/docs/him.md.
 constexpr int most_in_coarsest_mesh = 600;
 
-/// One body's meshes at rest, finest first, apart from the others.
+/// Meshes of one body at rest, finest first, separate from other bodies.
 struct BodyAtRest {
-  RowsOfBody rows;  ///< of the finest level
+  RowsOfBody rows;  ///< rows of its vertices on the finest level
   std::vector<TetMesh> meshes;
   std::vector<std::vector<char>> constrained;
-  std::vector<double> mass;  ///< of the finest level's vertices [kg]
+  std::vector<double> mass;  ///< mass of each vertex of the finest level [kg]
   std::optional<std::vector<int>> coarsen;
-  /// where it is the only body: each finer level's vertices in a mesh
+  /// [meshes] vertices of the next finer level in each mesh; null: finest mesh, or several bodies
   std::vector<const Embedding*> up;
 
   bool free() const { return std::ranges::count(constrained.front(), 1) == 0; }
@@ -38,7 +39,7 @@ std::vector<Value> some(const std::vector<Value>& all, const RowsOfBody& rows) {
   return {first, first + rows.count};
 }
 
-/// The tetrahedra of these vertices, numbered from the first of them.
+/// Returns the mesh of the tetrahedra of these vertices, numbered from the first of them.
 TetMesh mesh_of(const TetMesh& all, const RowsOfBody& rows) {
   TetMesh mesh;
   mesh.vertices = some(all.vertices, rows);
@@ -54,7 +55,8 @@ TetMesh mesh_of(const TetMesh& all, const RowsOfBody& rows) {
   return mesh;
 }
 
-/// The bodies of a scene; one that has fewer meshes than others has its coarsest one once.
+/// Returns the bodies of a scene.
+/// A body that has fewer meshes than others gets its coarsest mesh only once.
 template <class B>
 std::vector<BodyAtRest> bodies_at_rest(const StepperSetup<B>& setup) {
   const Body& body = setup.problem.body;
@@ -82,8 +84,8 @@ std::vector<BodyAtRest> bodies_at_rest(const StepperSetup<B>& setup) {
   return bodies;
 }
 
-/// Of how many points the spaces are that are made of the coarsest mesh; none: it is the coarsest
-/// level.
+/// Returns the numbers of points of the spaces that are made of the coarsest mesh.
+/// Empty: the coarsest mesh is the coarsest level.
 std::vector<int> sizes_below(const BodyAtRest& body, bool contact) {
   const bool alone = body.meshes.size() == 1;
   if (!alone && !body.coarsen &&
@@ -141,11 +143,12 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
   return parts;
 }
 
-/// Where a body's levels stand among those of the reports: all finest ones in one place, all spaces
-/// for slivers, the meshes, then spaces, of which the last ones are in one place.
+/// Places of the bodies' levels in the list of reports.
+/// The order is: finest levels, spaces for slivers, coarser meshes, other spaces. Bodies share a
+/// place: their finest levels, their spaces for slivers, and their last spaces.
 struct Places {
-  bool slivers = false;                ///< a body has such a space
-  std::size_t meshes = 1, spaces = 0;  ///< of the body that has most
+  bool slivers = false;                ///< true: a body has a space for slivers
+  std::size_t meshes = 1, spaces = 0;  ///< maximum over the bodies
 
   static std::size_t spaces_of(const LevelsBelow& below) {
     return below.made.size() - (!below.made.empty() && below.made.front().slivers);
@@ -155,7 +158,7 @@ struct Places {
     meshes = std::max(meshes, body.meshes.size()), spaces = std::max(spaces, spaces_of(below));
   }
   std::size_t count() const { return meshes + slivers + spaces; }
-  /// Of a body's levels, finest first.
+  /// Returns the places of one body's levels, finest first.
   std::vector<std::size_t> of(std::size_t own_meshes, const LevelsBelow& below) const {
     std::vector<std::size_t> places{0};
     if (spaces_of(below) < below.made.size()) places.push_back(1);
@@ -165,7 +168,7 @@ struct Places {
   }
 };
 
-/// Adds a space to the report of its place, which may have another body's already.
+/// Adds a space to the report of its place, where another body's space may already be.
 void report_space(const CoarseSpace& space, LevelReport& report) {
   const auto old = static_cast<double>(report.vertices),
              own = static_cast<double>(space.points.size());

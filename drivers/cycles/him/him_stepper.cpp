@@ -10,18 +10,18 @@ namespace plica {
 
 namespace {
 
-/// The largest t^2 lambda_max(A K) of steps that are given back: half way from that at rest to
-/// where WatchSpectrum reports it.
+/// Returns the largest t^2 lambda_max(A K) at which a longer step is taken again.
+/// It is half way from the value at rest, 4 sigma^2, to 3.4, above which WatchSpectrum reports it.
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
-constexpr double explicit_safety = 0.9;  // of the stable explicit step
-// What a step of the inverse mass costs, in explicit steps of level 0: cmake/docs/him.md
+constexpr double explicit_safety = 0.9;  // explicit step over the largest stable one
+// Cost of a step of the inverse mass, over that of an explicit step of level 0: cmake/docs/him.md
 constexpr double cost_of_step = 3, cost_with_contact = 6;
-constexpr int most_explicit = 1 << 14;  // times the sub-steps that level 0 takes at rest
+constexpr int most_explicit = 1 << 14;  // maximum sub-steps, over those of level 0 at rest
 
 }  // namespace
 
-// --- Set-up ---
+// --- Set-up --------------------------------------------------------------------------------------
 
 template <class B>
 void HimStepper<B>::plan(StepperSetup<B>& setup) {
@@ -72,13 +72,13 @@ void HimStepper<B>::begin(Hierarchy<B>& h) {
 template <class B>
 void HimStepper<B>::forget(const Exec& exec) {
   for (HimBody<B>& body : bodies_) body.forget(exec);
-  // These may be no numbers, after steps that went wrong
+  // After steps that went wrong these fields may have values that are not finite.
   fill(exec, fields_.force_before, Real(0));
   fill(exec, fields_.answer_before, Real(0));
   fill(exec, fields_.contact.force, Real(0));
 }
 
-// --- Step ---
+// --- Step ----------------------------------------------------------------------------------------
 
 template <class B>
 void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
@@ -90,7 +90,7 @@ void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
 template <class B>
 void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
   SolverLevel<B>& level = h[0];
-  // not those that are taken again
+  // macro steps that are taken again are not counted twice
   if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;
   level.book("integrate", [&] {
     prescribe(h.exec(), level, level.state, time);
@@ -137,7 +137,7 @@ void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
                             .f = force,
                             .model = level.model,
                             .damped = static_cast<Real>(t / 2),
-                            .bounding = Bounding::obstacles};  // the first, of unit forces
+                            .bounding = Bounding::obstacles};  // first call: unit forces
   const auto respond = [&] {
     where_touching<B>(exec, touching, "plica::contact_zero", n_, ZeroVectors<B>{force});
     over_list<B>(exec, records.transpose.vertices, "plica::contact_scatter", scatter, touching);
@@ -153,7 +153,7 @@ void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
   level.response().add_impulse(exec, level, level.state, time, t);
 }
 
-// --- Shorter steps, and longer ones again ---
+// --- Shorter steps, and longer ones again --------------------------------------------------------
 
 template <class B>
 bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {
@@ -222,7 +222,7 @@ template <class B>
 void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   if ((halvings_ == 0 && explicit_ == 0) || !regaining_.due(steps)) return;
   const double sigma = options_.sigma, step = explicit_ > 0 ? explicit_step(h) : 0;
-  // from there on steps are given back
+  // number of halvings from which on fewer halvings are tried
   const int longest = explicit_ > 0 ? most_halvings(step) + 1 : halvings_;
   int fitting = longest;
   for (int next = longest - 1; next >= 0; --next) {
@@ -242,8 +242,8 @@ void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   if (longer) halvings_ = fitting, explicit_ = 0;
   use_fits();
   if (returns) {
-    // fast detail that explicit steps have left goes: with its added inertia it would have more
-    // energy
+    // Removes the fast detail that explicit steps have left. With its added inertia this detail
+    // would have more energy.
     start(h);
     has_momenta_ = true;
   } else if (longer) {

@@ -10,11 +10,11 @@ namespace plica {
 namespace {
 
 constexpr double rounding = 1e-12, least_scale = 1e-4, parts_tolerance = 1e-2;
-constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
+constexpr int halvings = 8;  // halvings of the interval of log(scale): to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
-/// Scale k of those from least_scale, k = 0, to 1, which would be the next after the last: what
-/// halving the interval finds.
+/// Returns scale k of the `scales` that halving the interval from least_scale to 1 can find.
+/// Scale 0 is least_scale; the next after the last would be 1.
 double scale_at(int k) {
   double low = least_scale, high = 1;
   for (int half = scales / 2, at = 0; at != k; half /= 2) {
@@ -27,12 +27,13 @@ double scale_at(int k) {
   return low;
 }
 
-/// A scale and t^2 lambda_max(A K) there.
+/// A scale gamma, and t^2 lambda_max(A K) with it.
 struct Tried {
   double scale, product;
 };
 
-/// Where the product is `limit` if it is linear between these two, as it nearly is.
+/// Returns the scale at which the product is `limit`, by linear interpolation between two tries.
+/// The product is nearly linear in the scale.
 double between(const Tried& below, const Tried& above, double limit) {
   return below.scale +
          (above.scale - below.scale) * (limit - below.product) / (above.product - below.product);
@@ -94,7 +95,7 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
     const double own = scale * std::pow(critical_[i] / t, 2);
     before = std::max(
         before,
-        own < 1 - rounding ? own : 1.0);  // at 1 the coarser levels have no weight and are left out
+        own < 1 - rounding ? own : 1.0);  // at 1 the coarser levels have weight 0 and are left out
     alpha.push_back(before);
   }
   alpha.push_back(1);
@@ -140,7 +141,7 @@ template <class B>
 std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u) {
   const Kokkos::Profiling::ScopedRegion region("plica: fitting the inertia");
   set_answer(t, sigma);
-  double tried = 0;  // the product of the last scale
+  double tried = 0;  // product of the last scale that was tried
   const auto fits = [&](double gamma) {
     inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
     tried = product(t, u);
@@ -151,22 +152,23 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     fit.product = tried;
     return fit;
   };
-  // there alpha_0 is 1: no inertia is added
+  // scale at which alpha_0 is 1: no inertia is added
   const double plain = std::pow(t / critical_.front(), 2);
   if (plain <= 1 && fits(plain)) return found(plain);
   if (fits(1)) return found(1);
   if (!modes_) return {};
-  // the largest of the scales that fits: the product grows with them, from the coarsest level's own
+  // Search for the largest scale that fits. The product grows with the scale. At 0 it is that of
+  // the coarsest level alone.
   const double limit = 4 * sigma * sigma;
   Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{1, tried};
   int fitting = -1, failing = scales;
   for (int guesses = 0; failing - fitting > 1; ++guesses) {
     const double guess = between(below, above, limit);
-    // the last below the guess; where that is known to fit the one after it
+    // the last scale below the guess, or the one after it where that scale is known to fit
     int next = fitting + 1;
     while (next + 1 < failing && scale_at(next + 1) <= guess) ++next;
     if (guesses >= most_guesses) next = (fitting + failing) / 2;
-    if (guesses == 1 && fitting < 0) next = 0;  // of a body that has stiffened none may fit
+    if (guesses == 1 && fitting < 0) next = 0;  // after stiffening maybe none fits
     const double gamma = scale_at(next);
     if (fits(gamma))
       fitting = next, below = {gamma, tried};

@@ -10,17 +10,20 @@
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <vector>
 
+// Symbols of cmake/docs/him.md: gamma is InertiaFit::scale, alpha_i is 1 / InertiaFit::inertia[i],
+// t_i is InertiaFitter::critical_steps()[i], S is InverseMass::Answer. A is inverse_mass_, b its
+// weights.
 namespace plica {
 
-/// How a hierarchical inverse mass was fitted to a step.
+/// Result of fitting a hierarchical inverse mass to a step.
 struct InertiaFit {
   double step = 0;  ///< t [s]
-  /// t^2 lambda_max(A K) at the state it was fitted to; below 4 is stable
+  /// t^2 lambda_max(A K) at the state of the fit; below 4 is stable; 0: not known
   double product = 0;
-  /// of it at rest: the sum over the levels of weight times the part's own, never less
+  /// upper bound of the product at rest: sum over the levels of b_i t^2 lambda_max of part i alone
   double bound = 0;
   double scale = 0;  ///< gamma: alpha_i = min(1, gamma (critical step of part i / t)^2)
-  /// 1 / alpha_i, finest first: how many times too heavy a level's own detail is
+  /// 1 / alpha_i, finest first: factor by which a level's own detail is too heavy
   std::vector<double> inertia;
 };
 
@@ -28,29 +31,31 @@ struct InertiaFit {
 template <class B>
 class InertiaFitter {
  public:
-  /// @param level       with the vertices of all bodies, as every state u below
-  /// @param rows        the body's
-  /// @param eigenvalue  of the body's part of the level by itself at rest, see
-  /// largest_eigenvalue(); none: found here [1/s^2]
+  /// @param level       finest level, with the vertices of all bodies, as every state u below
+  /// @param rows        rows of the body's vertices
+  /// @param eigenvalue  largest_eigenvalue() of the body's part of the level at rest [1/s^2]; none:
+  ///                    computed here
   InertiaFitter(const typename B::Exec& exec, const Level<B>& level, const RowsOfBody& rows,
                 std::shared_ptr<const Elasticity<B>> elasticity, std::optional<double> eigenvalue,
                 InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
 
-  /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as
-  /// they are, with gamma at most 1; nothing fits: none, and the weights are of no use.
+  /// Sets b and S so that t^2 lambda_max(A K) is at most 4 sigma^2 at the state u.
+  /// gamma is the largest that fits, at most 1. Frames stay as they were last turned. Returns none
+  /// where nothing fits; the weights are then of no use.
   std::optional<InertiaFit> fit(double t, double sigma, const Vectors<B>& u);
 
-  /// The fit that had this gamma, at whatever state; its product is not known then.
+  /// Sets b and S of an earlier fit with this gamma, at any state.
+  /// The product of the returned fit is not known.
   InertiaFit use(double t, double sigma, double scale);
 
-  /// Device memory of the coarsest level's answers to the steps so far.
+  /// Returns the device memory of the matrices S of all steps so far [bytes].
   std::size_t bytes() const;
 
-  /// t^2 lambda_max(A K) at the state u, as the weights are for steps of t [s].
+  /// Returns t^2 lambda_max(A K) at the state u, with the present weights, for steps of t [s].
   double product(double t, const Vectors<B>& u) const { return t * t * largest(u, fit_tolerance); }
 
-  /// 2 / sqrt(lambda_max) of each part of the inverse mass alone at rest, finest first, without the
-  /// coarsest [s].
+  /// Returns t_i = 2 / sqrt(lambda_max) of each part of A alone at rest [s].
+  /// Finest first, without the coarsest part.
   const std::vector<double>& critical_steps() const { return critical_; }
 
  private:
@@ -61,7 +66,7 @@ class InertiaFitter {
   InverseMass<B>& inverse_mass_;
   std::optional<CoarseModes> modes_;
   std::vector<double> critical_;
-  // of steps and sigmas so far
+  // S of each {step, sigma} so far
   std::map<std::array<double, 2>, typename InverseMass<B>::Answer> answers_;
   static constexpr double fit_tolerance = 1e-2;
 

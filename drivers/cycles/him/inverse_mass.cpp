@@ -8,9 +8,9 @@ namespace plica {
 
 namespace {
 
-/// s of the vertices of a space: forces times s, accelerations over s. Q = E D^-1 (2 - M D^-1) E is
-/// 2 - M then, M = N M N, N = D^-1/2, and s = E N. Vertices that nothing hangs on have 0. The
-/// coarsest level stays as it is.
+/// Returns the unit s of each vertex of a space: forces are stored times s, accelerations over s.
+/// With N = D^-1/2 and s = E N, Q = E D^-1 (2 - M D^-1) E becomes 2 - N M N. Vertices on which no
+/// finer vertex depends have s = 0. On the coarsest level s = 1.
 Eigen::VectorXd units_of(const MassSpace& space) {
   if (space.scale.empty()) return Eigen::VectorXd::Ones(space.up.cols());
   const auto n = static_cast<Eigen::Index>(space.scale.size());

@@ -5,11 +5,14 @@
 #include <plica/drivers/cycles/him/turning_axes.hpp>
 #include <vector>
 
+// Symbols of cmake/docs/him.md: A is apply(), b are weights_. P_i is coarser_[i].up. S is
+// filter_.matrix, R is filter_.rotation. F is found by find_push(); g = axes_.force() is F on the
+// coarsest vertices. Frames are called axes in the code.
 namespace plica {
 
-/// a = A f: what a step of the hierarchical inverse mass makes of forces on the finest level. A is
-/// symmetric and positive definite; up and down through the levels, on the device, in the order of
-/// an instance.
+/// Hierarchical inverse mass A of one body: accelerations a = A f by forces on the finest level.
+/// A is symmetric and positive definite. It is applied down and up through the levels, by kernels
+/// on the device, in the order of an execution space's instance.
 template <class B>
 class InverseMass {
  public:
@@ -18,39 +21,39 @@ class InverseMass {
   using Count = Doubles<B>;
   using Answer = decltype(CoarseFilter<B>::matrix);
 
-  /// @param inverse_mass  of the body's vertices on the finest level [1/kg]
-  /// @param axes          of the coarsest space, where there are any
+  /// @param inverse_mass  inverse masses of the body's vertices on the finest level [1/kg]
+  /// @param axes          frames of the coarsest space, where there are any spaces
   InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
               const AxesShape& axes);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
-  /// The levels' weights b, finest first; they sum to 1.
+  /// Sets the levels' weights b, finest first; they sum to 1.
   void set_weights(const std::vector<double>& weights) { weights_ = weights; }
-  /// The coarsest level's answer S, see CoarseModes; as the device has it, it can be set again.
-  /// @{
+  /// Copies the coarse inverse mass S to the device, in float; see CoarseModes.
   static Answer to_device(const Eigen::MatrixXd& S);
+  /// Sets the coarse inverse mass S, which to_device() has made.
   void set_answer(const Answer& S) { filter_.matrix = S; }
-  /// @}
 
-  /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
+  /// Turns the coarsest level's frames with the finest mesh's displacements, see TurningAxes.
   void turn(const Exec& exec, const Vectors<B>& u) const;
-  /// Finds the force by which the axes act for a time t on the momenta q, with that force in them.
+  /// Finds the force F of frames over a time t [s], for momenta q + t F; q is without F.
   void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
-  /// p += t times that force, and a = (A p - v) / t, where p are the momenta that it was found for:
-  /// what came down to the levels is used again.
+  /// Adds the force of frames, p += t F, and sets a = (A p - v) / t.
+  /// p must be the momenta q of find_push(): their restrictions to the levels are used again.
   void push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
                            const Vectors<B>& a) const;
-  /// The same with a = A p; and the force is added to q as well.
+  /// Adds the force of frames to two momenta, p += t F and q += t F, and sets a = A p.
+  /// p must be the momenta q of find_push(): their restrictions to the levels are used again.
   void push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q,
                        const Vectors<B>& a) const;
-  /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that
-  /// is above 0.
+  /// Sets a = A f; vertices whose motion is given get 0.
+  /// With a `count` on the device, only where that is above 0.
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a,
              const Doubles<B>& count = {}) const;
 
   const CoarseFilter<B>& filter() const { return filter_; }
   const TurningAxes<B>& axes() const { return axes_; }
-  std::size_t bytes() const;  ///< without the answer
+  std::size_t bytes() const;  ///< device memory, without S
 
  private:
   int vertices_;
@@ -60,19 +63,20 @@ class InverseMass {
   TurningAxes<B> axes_;
   std::vector<double> weights_;
 
-  /// The levels down to the last one that has a weight.
+  /// Returns the number of coarser levels down to the last one whose weight is not 0.
   std::size_t weighed() const;
-  /// What comes down to the last of so many levels.
+  /// Restricts f to so many coarser levels, and returns the result on the last of them.
   Vectors<B> go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels,
                      const Doubles<B>& count) const;
-  /// All the way down, and there `turn`.
+  /// Restricts f to the coarsest level, and calls `turn` for each vertex there.
   template <class Turn>
   void go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count,
                        const Turn& turn) const;
-  /// From the coarsest level's answer, or the lowest that has a weight, to the level below the
-  /// finest.
+  /// Interpolates accelerations up to the level below the finest.
+  /// Starts at the coarsest level, whose accelerations are there, or at the coarsest that has a
+  /// weight.
   void go_up(const Exec& exec, const Doubles<B>& count) const;
-  /// After find_push(): with the force, up to the finest level, and there `last`.
+  /// Adds the F of find_push() on the levels, goes up, and calls `last` for each finest vertex.
   template <class Last>
   void go_up_pushed(const Exec& exec, double t, const Last& last) const;
   AnswerOfCoarsest<B> answer_of_coarsest() const;

@@ -38,8 +38,8 @@ CoarseModes::CoarseModes(Eigen::MatrixXd K, const RowMatrix& M) : unknowns_(K.ro
     for (int k = 0; k < 3; ++k) {
       for (Eigen::Index b = 0; b < full.cols(); ++b) M_(3 * a + k, 3 * b + k) = full(a, b);
       double& own = M_(3 * a + k, 3 * a + k);
-      if (!(own > 0)) own = typical, K_(3 * a + k, 3 * a + k) = 0;  // nothing reaches it
-      own *= 1 + 1e-9;  // vertices that barely differ do not make it singular
+      if (!(own > 0)) own = typical, K_(3 * a + k, 3 * a + k) = 0;  // no finer vertex depends on it
+      own *= 1 + 1e-9;  // keeps M_ regular where vertices have nearly equal motions
     }
 }
 
@@ -67,7 +67,7 @@ double CoarseModes::largest(double t, double kappa) const {
 
 namespace {
 
-/// Calls work(row) for a matrix's rows by all threads of the host.
+/// Calls work(row) for each row of a matrix, by all threads of the host.
 template <class Work>
 void for_rows(const RowMatrix& A, const Work& work) {
   for_row_ranges(static_cast<std::size_t>(A.rows()), [&](std::size_t first, std::size_t last) {
@@ -87,9 +87,9 @@ std::vector<double> inverse_row_sums(const RowMatrix& M) {
   return inverse;
 }
 
-/// M without its small entries, below a thousandth of sqrt(D_aa D_bb), which the diagonal takes:
-/// row sums stay. Of spaces that are made of a mesh more than half of the entries are that small,
-/// and 1 to 2 % of their sum.
+/// Returns M without its small entries, below a thousandth of sqrt(D_aa D_bb).
+/// They are added to the diagonal, so that row sums stay. In spaces that are made of a mesh more
+/// than half of the entries are that small, and their sum is 1 to 2 % of all.
 RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal) {
   constexpr double least = 1e-3;
   const Eigen::Map<const Eigen::ArrayXd> inverse(inverse_diagonal.data(), M.rows());
@@ -106,7 +106,7 @@ RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal)
   return some_entries(M, is_not_zero);
 }
 
-/// Q x, see MassSpace.
+/// Returns Q x, see MassSpace.
 Eigen::VectorXd answer_unscaled(const MassSpace& space, const Eigen::VectorXd& x) {
   const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), x.size());
   const Eigen::VectorXd lumped = (inverse * x.array()).matrix();
@@ -145,7 +145,7 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers,
   for (RowMatrix& P : transfers) {
     M = galerkin_product(M, P);
     MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), {}, inverse_row_sums(M), {}});
-    if (&P == &transfers.back()) {  // the last one's modes are its answer
+    if (&P == &transfers.back()) {  // the modes of the last level need all entries
       space.mass = std::move(M);
       break;
     }
@@ -157,7 +157,7 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers,
 
 namespace {
 
-/// Entries below `least` go to the largest one of their row.
+/// Removes entries below `least`, and adds them to the largest entry of their row.
 void drop_small(RowMatrix& A, double least) {
   for_rows(A, [&](Eigen::Index a) {
     double small = 0, *largest = nullptr;
@@ -175,8 +175,8 @@ void drop_small(RowMatrix& A, double least) {
 
 RowMatrix to_finest(const std::vector<MassSpace>& spaces) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse motions of the mesh");
-  constexpr double least = 1e-4;     // as in the transfers of points
-  RowMatrix all = spaces.back().up;  // from the coarsest one on: fewer rows to begin with
+  constexpr double least = 1e-4;     // the limit that transfers of points have
+  RowMatrix all = spaces.back().up;  // starts at the coarsest level: fewest rows
   for (std::size_t i = spaces.size() - 1; i-- > 0;) {
     all = product(spaces[i].up, all);
     drop_small(all, least);

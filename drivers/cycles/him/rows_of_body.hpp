@@ -4,11 +4,11 @@
 
 namespace plica {
 
-/// The vertices of one body among those of a level: they follow each other.
+/// Rows of one body's vertices among those of a level; they follow each other.
 struct RowsOfBody {
   int first = 0, count = 0;
 
-  /// These rows of a field, without a copy; nothing of an empty one.
+  /// Returns these rows of a field, without a copy; an empty field stays empty.
   template <class View>
   View of(const View& x) const {
     if (x.extent(0) == 0) return x;

@@ -13,10 +13,12 @@ namespace plica {
 namespace {
 
 constexpr int smoothings = 6;
-constexpr double least_mass = 1e-6, least_volume = 1e-4;  // of the largest, of the mesh's own
-constexpr double least_mean = 1e-3;                       // left out of means
+// over the largest mass of a vertex; over the volume of the element in the mesh
+constexpr double least_mass = 1e-6, least_volume = 1e-4;
+constexpr double least_mean = 1e-3;  // smaller weights are left out of means
 
-/// Where nothing of the finest mesh reaches a vertex: the mesh's motion there.
+/// Returns E: the mean by mass over the finest vertices in the elements around a coarse vertex.
+/// A coarse vertex with almost no such mass takes the finest mesh's motion at its place.
 RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest,
                               const std::vector<double>& mass) {
   const Embedding in = embed(finest.vertices, coarsest, Outside::clamp);
@@ -54,7 +56,7 @@ double volume_of(const std::vector<Point>& x, const std::array<int, 4>& tet) {
   return edges_of(x, tet).determinant() / 6;
 }
 
-/// E times positions.
+/// Returns E times positions.
 std::vector<Point> restricted(const RowMatrix& E, const std::vector<Point>& fine) {
   std::vector<Point> x(static_cast<std::size_t>(E.rows()), Point::Zero());
   for (Eigen::Index a = 0; a < E.rows(); ++a)
@@ -63,8 +65,8 @@ std::vector<Point> restricted(const RowMatrix& E, const std::vector<Point>& fine
   return x;
 }
 
-/// Each vertex's mean over its elements, by volume, of the means of their vertices; of flat ones by
-/// the volumes in the mesh.
+/// Returns for each vertex the mean over its elements, by volume, of the means of their vertices.
+/// Where all elements of a vertex are flat, they count alike.
 RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& volume,
                              const std::vector<double>& sum) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -130,7 +132,7 @@ AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
 
 namespace {
 
-/// Per vertex of the finest mesh the largest four of its |weights|, which then sum to 1.
+/// Returns the four largest |weights| of each vertex of the finest mesh, scaled to the sum 1.
 RowMatrix main_weights(const RowMatrix& P) {
   constexpr std::size_t most = 4;
   std::vector<Eigen::Triplet<double>> entries;
@@ -162,7 +164,7 @@ void divide_by_row_sums(RowMatrix& A) {
   }
 }
 
-/// The three columns of a matrix of derivatives, by direction.
+/// Matrix of derivatives, one for each direction.
 using DirectedRows = std::array<RowMatrix, 3>;
 
 }  // namespace
@@ -178,12 +180,12 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
   result.restriction = carried;
   divide_by_row_sums(result.restriction);
   const std::vector<Point> x = restricted(result.restriction, finest.vertices);
-  // W: from a point to what hangs on it and on to all the points that this hangs on
+  // W: mean over all points that share a finest vertex with a point
   RowMatrix W = product(carried, weights);
   divide_by_row_sums(W);
   // h_ab = sum over the finest vertices i of weight_ia m_i (X_i - x_a) Pi_ib, so that sum_b u_b
-  // h_ab^T is the moment of the motion about x_a; smoothed once by W. The moment of rest positions
-  // makes a gradient of it
+  // h_ab^T is the moment of the motion about x_a; smoothed once by W. Times the inverse moment of
+  // rest positions it is a gradient.
   DirectedRows h;
   for (int k = 0; k < 3; ++k) {
     RowMatrix lever = carried;
@@ -208,9 +210,9 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
               derivative.transpose(),
           sum += derivative;
     row.try_emplace(static_cast<int>(a), Point::Zero()).first->second -=
-        sum;  // of differences: a translation has no gradient
+        sum;  // makes the row sum to 0: a translation has no gradient
     const Eigen::Matrix3d inverse = rest.inverse();
-    // its axes do not turn
+    // without a gradient this point's frame does not turn
     if (!(std::abs(rest.determinant()) > 0) || !inverse.allFinite()) continue;
     for (const auto& [b, derivative] : row)
       result.gradient[static_cast<std::size_t>(a)].emplace_back(b,
@@ -222,7 +224,8 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
 
 namespace {
 
-/// A matrix of columns [n][3 n or n], see CoarseAxes.
+/// Dense matrix [n][3 n or n] in the order of CoarseAxes: [groups of rows][columns][rows of a
+/// group].
 template <class B, class Number>
 class DenseMatrix {
  public:
@@ -249,7 +252,7 @@ void for_entries(const RowMatrix& A, const Add& add) {
     for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) add(a, entry.col(), entry.value());
 }
 
-/// The matrices of CoarseAxes that the gradient makes: G is W times D.
+/// Sets the matrices of CoarseAxes that depend on the gradient G = W D.
 template <class B>
 void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>& axes) {
   using Real = typename B::Real;

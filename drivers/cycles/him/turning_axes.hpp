@@ -6,75 +6,81 @@
 #include <plica/kernels/him/coarse_axes.hpp>
 #include <plica/kernels/reduce.hpp>
 
+// Symbols of cmake/docs/him.md: R is rotation(), the frames, which are called axes in the code. F
+// is E^T g, on the finest vertices: g is force(), E is AxesShape::restriction. Pi is the product of
+// all P.
 namespace plica {
 
-/// What the axes of the coarsest level are found from, see CoarseAxes.
+/// Matrices that the frames of the coarsest level are found with, see CoarseAxes.
 struct AxesShape {
-  /// Per vertex the entries (column, derivative) of its gradient D.
+  /// Entries (column, derivative) of the gradient D, per vertex.
   using Gradients = std::vector<std::vector<std::pair<int, Point>>>;
 
-  /// E: means by mass over what hangs on a coarse vertex; rows sum to 1
+  /// E: mean by mass over the finest vertices that depend on a coarse vertex; rows sum to 1
   RowMatrix restriction;
-  Gradients gradient;           ///< D of u_C
-  std::vector<double> at_rest;  ///< D there is this times 1
+  Gradients gradient;           ///< D: gradient of u_C = E u
+  std::vector<double> at_rest;  ///< per vertex a factor: D at rest is the factor times the identity
   RowMatrix smoothing;          ///< W: means over neighbourhoods; W D = 1 at rest
 };
 
-/// By the elements of a coarser mesh, placed like the finest: D is the sum of volume times
-/// deformation gradient.
-/// @param mass  of the finest level's vertices [kg]
+/// Returns the matrices from the elements of the coarsest mesh, placed like the finest one.
+/// D of a vertex is the sum over its elements of volume times deformation gradient.
+/// @param mass  mass of each vertex of the finest level [kg]
 AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
                        const std::vector<double>& mass);
 
-/// Of a coarse space without elements, by the motion that it gives the finest mesh: D is the linear
-/// map of rest positions that is nearest to it, by mass, around a point.
+/// Returns the matrices of a coarse space without elements.
+/// D of a point is the linear map of rest positions that is nearest, by mass, to the motion of the
+/// finest mesh around the point.
 /// @param to_finest  Pi
+/// @param mass       mass of each vertex of the finest level [kg]
 AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
                         const std::vector<double>& mass);
 
-/// The axes of the coarsest level, which turn with the body, and the force by which they act back
-/// on it.
+/// Frames of the coarsest level, which turn with the body, and the force of frames on the body.
 template <class B>
 class TurningAxes {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
   TurningAxes() = default;
-  /// @param moved  Pi^T E^T: coarse momentum per momentum on u_C
+  /// @param moved  Pi^T E^T: from momenta on u_C to coarse momenta
   TurningAxes(const AxesShape& shape, const RowMatrix& moved);
 
-  /// R at a state.
+  /// Sets R by the displacements u of the finest mesh.
   void turn(const Exec& exec, const Vectors<B>& u) const;
 
-  /// What comes before find_torques(), vertex by vertex.
+  /// Returns the kernel that must run before find_torques(), for each coarse vertex.
   StartMomentum<B> start(const Vectors<B>& given, const CoarseFilter<B>& filter) const {
     return {filter, {given, share_}};
   }
-  /// Finds the torques by which the axes act on momenta for a time t, at the momenta that this
-  /// gives: repeated until it changes by less than a thousandth of itself or a millionth of the
-  /// momenta, six times at most, warm from the last step. After start().
-  /// @param given   coarse momenta without it
-  /// @param filter  of the coarsest level; takes the momenta with it, turned
-  /// @param weight  of the coarsest level in the inverse mass
+  /// Finds the torques on the frames over a time t [s], for the momenta that result from them.
+  /// Repeats until the force's share of the momenta changes by less than a thousandth of itself or
+  /// a millionth of the momenta, at most six times. Starts from the share of the last step. Must be
+  /// called after the kernel start().
+  /// @param given   coarse momenta without the force of frames
+  /// @param filter  of the coarsest level; `turned` becomes R^T times the momenta with the force
+  /// @param weight  weight b of the coarsest level
   void find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter,
                     double weight, double t) const;
-  /// g of those torques, group by group.
+  /// Returns the kernel that computes g from the torques of find_torques(), group by group.
   ForceOfTorques<B> force_of_torques() const { return {axes_}; }
-  /// p += t times that force, and q, where it is not empty
+  /// Returns the kernel that adds the force of frames: p += t F, and q += t F where q is not empty.
   PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p,
                      const Vectors<B>& q = {}) const {
     return {axes_.spread, inverse_mass, axes_.force, p, q, static_cast<Real>(t)};
   }
-  /// g
+  /// Returns g, the force of frames on u_C [N].
   const Vectors<B>& force() const { return axes_.force; }
 
   const Vectors<B>& rotation() const { return rotation_; }
   int vertices() const { return vertices_; }
-  /// The squares of the angles of the last turn; their sum is that of all vertices [rad^2].
+  /// Returns per group of vertices the sum of the squared angles of the last turn [rad^2].
   const Doubles<B>& angles() const { return axes_.angles; }
-  /// What the force added to the coarse momenta in the last step.
+  /// Returns the part of the coarse momenta that the force of frames added in the last step.
   const Vectors<B>& share() const { return share_; }
-  /// By how much of itself that force still changed; without axes empty.
+  /// Returns the sums of the last round: how much the force's share still changed, over itself.
+  /// Empty without frames.
   RoundOfAxes<B> last_round() const { return round(most_rounds - 1); }
   std::size_t bytes() const;
 

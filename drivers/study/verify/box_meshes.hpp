@@ -4,18 +4,20 @@
 #include <plica/core/mesh.hpp>
 #include <string>
 
-// Boxes that elements are judged on. Regular ones hide much of an error.
+// Boxes for tests of elements. Regular meshes hide much of an error.
 namespace plica {
 
 inline constexpr const char* mesh_kinds[] = {"regular", "jittered", "delaunay"};
 
-/// Whether such a mesh of so many cells was made: of `delaunay` there are those of
+/// Returns whether a mesh of this kind with these cells exists: of kind `delaunay` only those of
 /// meshes/data/delaunay.
 bool has_box(const std::string& kind, const std::array<int, 3>& cells);
 
-/// regular: six tetrahedra a cell; jittered: its vertices moved by up to a fifth of a cell, those
-/// on a face within it, those at the upper end of the axis `kept` not at all; delaunay: Delaunay's
-/// tetrahedra of as many vertices, moved by up to 0.35, slivers and all.
+/// Returns a mesh of a box. Kinds of mesh_kinds:
+/// * regular: six tetrahedra per cell;
+/// * jittered: vertices moved by up to a fifth of a cell, those on a face within that face;
+/// * delaunay: Delaunay tetrahedra, with slivers, of as many vertices, moved by up to 0.35 cells.
+/// @param kept  axis at whose upper end vertices are not moved; -1: none
 TetMesh box_of(const std::string& kind, const Box& box, const std::array<int, 3>& cells,
                int kept = -1);
 

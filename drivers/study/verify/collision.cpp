@@ -25,7 +25,8 @@ struct BallMomenta {
   Point momentum = Point::Zero(), spin = Point::Zero(), left = Point::Zero();
 };
 
-/// Of the vertices; `left` is the momentum of the first half of them.
+/// Returns linear and angular momentum of all vertices, and the linear momentum of the left ball.
+/// The left ball has the first half of the vertices.
 BallMomenta momenta_of_balls(const Simulation<HostBackend>& simulation,
                              const std::vector<double>& mass) {
   BallMomenta sums;

@@ -21,7 +21,7 @@ double along(const Simulation<HostBackend>& simulation) {
   return sum;
 }
 
-/// Whether it gains speed on a slope of this tangent, after the first jolt.
+/// Returns whether a block gains speed on a slope of this tangent, after the first impact.
 bool slides(int n, double tangent) {
   Problem p = verify_body(box_mesh({{0, 0, 0}, {size, size, size}}, {n, n, n}),
                           {"corotational", 2e5, 0.3, 1000});
@@ -37,7 +37,7 @@ bool slides(int n, double tangent) {
   return along(simulation) - before > 0.01 * g * tangent * (simulation.time() - start);
 }
 
-/// The smallest tangent at which it does, by bisection.
+/// Returns the smallest tangent at which the block slides, by bisection.
 double slips_at(int n) {
   double holds = 0.5 * friction, slips = 2 * friction;
   while (slips - holds > 1e-3 * friction) {

@@ -12,7 +12,7 @@
 
 namespace plica {
 
-/// An integrator, or `him`, with its macro step.
+/// An integrator, or cycle `him`, with its macro step.
 struct ContactMethod {
   std::string name;
   double step = 0;  ///< [s]; 0: automatic
@@ -30,7 +30,7 @@ struct ContactMethod {
   }
 };
 
-/// A body that touches by its whole boundary.
+/// Returns a problem of a body whose whole boundary can touch.
 inline Problem touching_body(TetMesh mesh, const MaterialOptions& material) {
   Problem p = verify_body(std::move(mesh), material);
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
@@ -48,7 +48,7 @@ class BodySums {
     return sum;
   }
   const std::vector<double>& masses() const { return mass_; }
-  /// Of a field of the vertices, times their mass.
+  /// Returns the sum of a field of the vertices, weighted by their masses.
   Point of(const std::vector<Point>& field) const {
     Point sum = Point::Zero();
     for (std::size_t a = 0; a < mass_.size(); ++a) sum += mass_[a] * field[a];
@@ -59,7 +59,7 @@ class BodySums {
   std::vector<double> mass_;
 };
 
-/// Steps until a time [s]; look(simulation) after each.
+/// Steps the simulation until a time [s]; calls look(simulation) after each step.
 template <class Look>
 void run_until(Simulation<HostBackend>& simulation, double time, const Look& look) {
   while (simulation.time() < time - 1e-9) {

@@ -6,9 +6,9 @@
 #include <plica/drivers/study/verify/list.hpp>
 #include <plica/kernels/materials/parameters.hpp>
 
-// What elements are worth where linear tetrahedra are known to be too stiff: in bending, and near
-// nu = 0.5. Each problem is solved with both kinds, on regular meshes and on irregular ones, which
-// hide less.
+// Accuracy of elements where linear tetrahedra are known to be too stiff: in bending, and near
+// nu = 0.5. Each problem is solved with both kinds of elements, on regular meshes and on irregular
+// ones, which hide less of an error.
 namespace plica {
 
 namespace {
@@ -16,18 +16,19 @@ namespace {
 constexpr const char* by_quadratic_elements =
     "quadratic elements with linear pressures (Q2/P1, Taylor-Hood P2/P1), extrapolated";
 
-/// Where values of linear elements are shown, not judged: that they are off is what the row says.
+/// Sets element, rule and tolerance of a row. Values of linear elements are shown, not judged: the
+/// row documents their error.
 void judge_by(VerifyRow& row, const std::string& element, Judged judged, double tolerance) {
   row.element = element;
   row.judged = element == "nodal" ? judged : Judged::nothing, row.tolerance = tolerance;
 }
 
-// Clamped at x = 0, a uniform traction on the end face; the mean deflection of that face is what
-// the load does work on.
+// Beam clamped at x = 0 with a uniform traction on the end face. The load does work on the mean
+// deflection of that face.
 struct Beam {
   const char* name;
   double side;
-  int per_side;  ///< cells along it for one across
+  int per_side;  ///< cells along the beam per cell across it
   double accepted[4];
 };
 constexpr double beam_nu[] = {0.3, 0.45, 0.49, 0.4999};
@@ -88,7 +89,7 @@ VerifyRows bending(const VerifyContext& context) {
 
 namespace {
 
-// (0,0) (48,44) (48,60) (0,44) mm
+// Maps the unit cube to Cook's membrane, with the corners (0,0) (48,44) (48,60) (0,44) mm
 Point in_cook(const Point& s, double thickness) {
   const double low = 44 * s[0], high = 44 + 16 * s[0];
   return 1e-3 * Point(48 * s[0], low + (high - low) * s[1], thickness * s[2]);
@@ -150,7 +151,7 @@ VerifyRows cook_incompressible(const VerifyContext& context) {
         StaticOptions options;
         options.load_steps = element == "nodal" ? 24 : 8;
         const auto u = static_equilibrium(probe, options);
-        // the load alone, in balance with nothing
+        // at rest the force is the load alone
         const auto full = probe.force(probe.zero(), probe.zero(), 1);
         double work = 0, load = 0;
         for (std::size_t a = 0; a < u.size(); ++a) work += full[a][1] * u[a][1], load += full[a][1];
@@ -162,8 +163,8 @@ VerifyRows cook_incompressible(const VerifyContext& context) {
   return rows;
 }
 
-// Quarter of a block of 1 mm; the points of its top move vertically only, a quarter of it is
-// loaded.
+// Solves a quarter of a punched block, 1 mm high. Points of the top move vertically only, and a
+// quarter of the top is loaded.
 VerifyRows punch(const VerifyContext& context) {
   VerifyRows rows;
   constexpr double mm = 1e-3, mu = 80.194e6, lambda = 400889.8e6, pressure = 320e6;

@@ -8,7 +8,7 @@
 
 namespace plica {
 
-// Boundary vertices go where x = F X + c takes them; inner ones start off their place and must find
+// Moves boundary vertices to x = F X + c. Inner vertices start away from that place and must reach
 // it.
 VerifyRows affine_patch(const VerifyContext& context) {
   constexpr const char* source =
@@ -55,7 +55,7 @@ VerifyRows affine_patch(const VerifyContext& context) {
 
 namespace {
 
-// Turned by an angle about z, the unstrained body feels a mean stress.
+// Returns the row of the mean stress that `linear` has in an unstrained body turned about z.
 VerifyRow stress_of_a_turn(int n) {
   const Problem problem = irregular_cube(Linear::name, n);
   const TetMesh& mesh = problem.body.levels[0];
@@ -103,7 +103,7 @@ namespace {
 
 constexpr double tolerance = 1e-6;
 
-// d/dt of a function at 0 by central differences, of fourth order
+// Returns d/dt of a function at 0, by central differences of fourth order
 template <class F>
 auto slope_at_zero(const F& f, double h) {
   const auto central = [&](double t) { return ((f(t) - f(-t)) / (2 * t)).eval(); };
@@ -144,7 +144,8 @@ Eigen::VectorXd stacked(const std::vector<Point>& field) {
   return x;
 }
 
-// Of a whole irregular mesh along a random direction: {force against energy, tangent against force}
+// Returns relative errors of derivatives of a whole irregular mesh, along a random direction:
+// {force against energy, tangent against force}
 std::array<double, 2> on_a_mesh(const char* material, int cells) {
   LevelProbe<HostBackend> probe(irregular_cube(material, cells));
   const double size = 0.01 / cells;
@@ -161,7 +162,7 @@ std::array<double, 2> on_a_mesh(const char* material, int cells) {
     return Eigen::Matrix<double, 1, 1>(probe.elastic_energy(at(t)));
   };
   const auto force = [&](double t) { return stacked(probe.force(at(t))); };
-  // so short that hardly any fibre becomes slack in it, where its tangent jumps
+  // short, so that hardly any fibre becomes slack within it: there the tangent jumps
   constexpr double h = 1e-5;
   return {std::abs(slope_at_zero(energy, h)(0) / f.dot(direction) + 1),
           (slope_at_zero(force, h) + Kp).norm() / Kp.norm()};

@@ -14,9 +14,9 @@ namespace plica {
 namespace {
 namespace cube {
 
-// The first modes of a free cube, E 1 Pa, nu 0.499, 1 kg/m^3, 1 m [Hz]: Ritz' method with
-// polynomials to degree 13, which moves the last by 1e-4 from degree 12 (Demarest, J. Acoust. Soc.
-// Am. 49, 1971; Visscher, Migliori, Bell & Reinert, J. Acoust. Soc. Am. 90, 1991)
+// First elastic frequencies of a free cube with E 1 Pa, nu 0.499, 1 kg/m^3, 1 m [Hz]. Ritz' method
+// with polynomials to degree 13, which changes the last frequency by 1e-4 from degree 12 (Demarest,
+// J. Acoust. Soc. Am. 49, 1971; Visscher, Migliori, Bell & Reinert, J. Acoust. Soc. Am. 90, 1991)
 constexpr double accepted[] = {0.26260, 0.26260, 0.35744, 0.35744, 0.35744, 0.36062, 0.36062,
                                0.36062, 0.40838, 0.40838, 0.40838, 0.46168, 0.46168, 0.46168,
                                0.46365, 0.46365, 0.46365, 0.50747, 0.50747, 0.50747};
@@ -24,10 +24,10 @@ constexpr const char* source =
     "Ritz' method, polynomials to degree 13 (Demarest, J. Acoust. Soc. Am. 49, 1971; Visscher et "
     "al., same 90, 1991)";
 
-// Its first `count` frequencies but those of rigid motion
+// Returns the first `count` frequencies of the cube [Hz], without those of rigid motion
 std::vector<double> frequencies(const std::string& element, const std::string& kind, int n,
                                 int count) {
-  // [1/s^2], of the size of the lowest: makes the free body's matrix definite
+  // [1/s^2], of the order of the lowest eigenvalue: makes the matrix of the free body definite
   constexpr double shift = 1;
   Problem p = verify_body(box_of(kind, {{0, 0, 0}, {1, 1, 1}}, {n, n, n}), {"linear", 1, 0.499, 1});
   p.body.element = {element};
@@ -84,8 +84,8 @@ VerifyRows free_cube(const VerifyContext& context) {
   return rows;
 }
 
-// Half its thickness, one layer of cells: the middle plane does not bend, the surface is free,
-// which is plane stress.
+// Solves half the thickness of the membrane, with one layer of cells. The middle plane does not
+// bend and the surface is free, which is plane stress.
 VerifyRows tapered_membrane(const VerifyContext& context) {
   constexpr double accepted[] = {44.623, 130.03, 162.70, 246.05, 379.90, 391.44};
   VerifyRows rows;
@@ -131,8 +131,8 @@ Problem bar(int n) {
 }  // namespace axial
 }  // namespace
 
-// Without lateral strain, nu = 0, motion along the axis alone is the bar's own: the rest of it is
-// held, which leaves bending out.
+// Solves a bar with nu = 0. Without lateral strain its axial motion is along the axis alone. Motion
+// across the axis is fixed, which excludes bending.
 VerifyRows axial_bar(const VerifyContext& context) {
   using namespace axial;
   constexpr const char* source =
@@ -171,7 +171,7 @@ namespace slender {
 constexpr double E = 1e7, rho = 1000, length = 1, side = 0.05, g = 0.1, load = 0.01;  // SI
 constexpr double A = side * side, I = side * side * side * side / 12;
 
-// Half of it, cut along the plane y = 0 in which it bends
+// Returns half of the beam, cut along the plane y = 0, in which it bends
 Problem beam(int n, double nu) {
   Problem p = verify_body(box_mesh({{0, 0, 0}, {length, side / 2, side}}, {20 * n, n / 2, n}),
                           {"linear", E, nu, rho});
@@ -183,7 +183,7 @@ Problem beam(int n, double nu) {
 
 bool held(const Point& X, int axis) { return axis == 1 && X[1] < 1e-9; }
 
-// A whole beam in motion beside its eigenvalue on the same mesh
+// Compares the frequency of a whole beam in motion with its eigenvalue on the same mesh
 VerifyRow from_its_motion(int n) {
   Problem p = verify_body(box_mesh({{0, 0, 0}, {length, side, side}}, {20 * n, n, n}),
                           {"linear", E, 0.3, rho});
@@ -200,8 +200,8 @@ VerifyRow from_its_motion(int n) {
   return row;
 }
 
-// A short beam in motion beside its eigenvalue on the same mesh: small motions are the same in
-// every material
+// Compares the frequency of a short beam in motion with the eigenvalue of `linear` on the same
+// mesh. Small motions are the same in every material
 VerifyRows of_a_short_beam(const VerifyContext& context) {
   Problem p = verify_body(jittered_box({{0, 0, 0}, {0.4, 0.1, 0.1}}, {12, 3, 3}),
                           {"linear", 1e5, 0.3, 1000});
@@ -234,7 +234,7 @@ struct Theory {
   double tip, sag, frequency;
 };
 
-// Timoshenko's beam: the shear of a section of factor 5/6 beside Euler's and Bernoulli's bending
+// Returns the solution for Timoshenko's beam: Euler-Bernoulli bending, and shear with factor 5/6
 Theory theory(double nu) {
   const double shear = 5.0 / 6 * E / (2 * (1 + nu)) * A, beta = 1.8751;
   const double tip = load * std::pow(length, 3) / (3 * E * I),

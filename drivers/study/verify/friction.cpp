@@ -13,8 +13,9 @@ namespace slope {
 
 constexpr double friction = 0.5, g = 9.81, degree = std::numbers::pi / 180;
 
-/// A block of soft tissue on a plane, in the plane's axes. Undamped, it would flutter as it slides:
-/// rigid bodies are what Coulomb's slope is about. `him` knows no damping by stiffness.
+/// Returns a block of soft tissue on a plane, in the plane's axes, with stiffness damping. Without
+/// damping it would flutter as it slides, while Coulomb's slope is about rigid bodies. Cycle `him`
+/// has no stiffness damping: it gets `mass_damping` [1/s] instead.
 Problem block(const ContactMethod& method, double angle, double mass_damping = 0) {
   Problem p = touching_body(box_of("delaunay", {{0, 0, 0}, {0.1, 0.1, 0.05}}, {4, 4, 2}),
                             {"neo_hookean", 5e4, 0.4, 1000});
@@ -28,7 +29,7 @@ Problem block(const ContactMethod& method, double angle, double mass_damping = 0
   return p;
 }
 
-/// The largest speed of a vertex in the last 0.1 s [m/s].
+/// Returns the largest speed of a vertex in the last 0.1 s [m/s].
 double speed_at_rest(const ContactMethod& method, double angle, double duration) {
   Simulation<HostBackend> simulation(block(method, angle, 20));
   double largest = 0;
@@ -38,7 +39,7 @@ double speed_at_rest(const ContactMethod& method, double angle, double duration)
   return largest;
 }
 
-/// The mean acceleration along the slope from 0.2 s to 0.7 s over g (sin - mu cos), less 1.
+/// Returns the mean acceleration along the slope from 0.2 s to 0.7 s over g (sin - mu cos), less 1.
 double error_of_acceleration(const ContactMethod& method, double angle) {
   const Problem p = block(method, angle);
   const BodySums sums(p.body);
@@ -99,7 +100,7 @@ ObstacleOptions jaw(double inward, double at) {
   return o;
 }
 
-/// A cube between two jaws that close, and lift it from the floor.
+/// Returns a cube between two jaws that close and lift it from the floor.
 Problem gripped(const ContactMethod& method) {
   Problem p = touching_body(box_of("delaunay", {{0, 0, 0}, {side, side, side}}, {4, 4, 4}),
                             {"neo_hookean", 5e4, 0.45, 1000});
@@ -152,8 +153,8 @@ namespace table {
 
 constexpr double side = 0.06, quarter = std::numbers::pi / 2, shear = 1e-3;
 
-/// A cube that is pressed on a table by a plate, and sheared by it; then both turn by 90 degrees
-/// about the same axis.
+/// Returns a cube on a table that a plate presses down and shears. Then table and plate turn by 90
+/// degrees about the same axis.
 Problem sheared(const ContactMethod& method) {
   Problem p = touching_body(box_of("delaunay", {{0, 0, 0}, {side, side, side}}, {4, 4, 4}),
                             {"neo_hookean", 5e4, 0.4, 1000});
@@ -163,7 +164,7 @@ Problem sheared(const ContactMethod& method) {
   ObstacleOptions floor{PlaneOptions{centre, {0, 0, 1}}, 0.5, {}},
       plate{PlaneOptions{{0, 0, side}, {0, 0, -1}}, 0.5, {}};
   floor.turn = Turn{{0, 0, 1}, centre, {0, 0, 0}, turned};
-  // this goes along with its motion
+  // the plate's axis moves with the plate, to the table's axis
   plate.turn = Turn{{0, 0, 1}, Point(centre - along), {0, 0, 0}, turned};
   plate.motion = PathMotion{{{0.1, {0, 0, 0}}, {0.3, pressed}, {0.5, pressed + along}}};
   p.contact.obstacles = {floor, plate};

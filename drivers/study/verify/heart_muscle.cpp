@@ -7,8 +7,8 @@
 
 namespace plica {
 
-// A beam of 10 x 1 x 1 mm with fibres along it, clamped at x = 0; a pressure of 4 Pa follows its
-// lower face.
+// Solves a beam of 10 x 1 x 1 mm with fibres along it, clamped at x = 0. A pressure of 4 Pa follows
+// its lower face.
 VerifyRows bending_heart_muscle(const VerifyContext& context) {
   constexpr double mm = 1e-3;
   VerifyRow row{.quantity = "z of the point (10, 0.5, 1) mm",

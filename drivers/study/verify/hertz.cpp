@@ -15,20 +15,20 @@ namespace hertz {
 
 constexpr double sphere_young = 1e5, nu = 0.3, rho = 1000, R = 0.5, contact_radius = 0.014;  // SI
 
-/// Cells across half of a block, the smallest, which is at the contact, over R, and how much larger
-/// the next one is.
+/// Cells across half of a block. `smallest` is the size of the cell at the contact over R, and
+/// `growth` the ratio of the sizes of successive cells.
 struct Grading {
   int cells;
   double smallest, growth;
 };
 
-/// A block whose upper face is part of a sphere about its middle, where it touches z = 0; `shift`
-/// is across z.
+/// A block whose upper face is, around its middle, part of a sphere that touches z = 0.
 struct Cap {
   Body body;
-  double size;  ///< from the contact to the faces that are held
+  double size;  ///< distance from the contact to the fixed faces [m]
 };
 
+/// Returns a cap below z = 0, or `upside_down` above it, moved by `shift` across z [m].
 Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
   const int n = grading.cells;
   std::vector<double> at{0};
@@ -55,8 +55,9 @@ Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
   return {body, L};
 }
 
-/// Force over Hertz's, mean of the second half of an approach to `contact_radius`, slow to waves;
-/// of a sphere on a rigid plane or on its like.
+/// Returns the force over that of Hertz, mean over the second half of an approach up to
+/// `contact_radius`. The approach is slow compared with waves. The sphere is pressed on a rigid
+/// plane, or with `spheres` on an equal sphere.
 double force_over_theory(const Grading& grading, bool spheres) {
   const Cap below = cap(grading, false, Point::Zero());
   const double radius = spheres ? R / 2 : R,
@@ -68,7 +69,7 @@ double force_over_theory(const Grading& grading, bool spheres) {
   Problem p;
   p.body = below.body;
   p.body.fixed = {GroupSelection{"held"}};
-  if (spheres) {  // no two vertices above each other
+  if (spheres) {  // the shift keeps vertices from lying above each other
     Cap above = cap(grading, true, grading.smallest * R * Point(0.37, 0.23, 0));
     above.body.prescribed = {{GroupSelection{"held"}, SteadyMotion{velocity}}};
     above.body.initial.velocity = velocity;

@@ -13,7 +13,7 @@ namespace falling {
 
 constexpr double height = 0.5, g = 9.81, density = 1000, young = 1e6;
 
-/// A soft block of 1 m over a plate that is 10 000 times as stiff.
+/// Returns a soft block of 1 m above a plate that is 10 000 times as stiff.
 Problem over_a_plate(const ContactMethod& method) {
   Body block = verify_body(box_mesh({{4.5, 4.5, height}, {5.5, 5.5, height + 1}}, {3, 3, 3}),
                            {"neo_hookean", young, 0, density})
@@ -102,8 +102,8 @@ VerifyRows impact_on_a_plate(const VerifyContext& context) {
 namespace {
 namespace thrown {
 
-/// The most that a cube thrown at a floor has of energy over what it began with, relative to what
-/// it began with.
+/// Returns the maximum increase of a thrown cube's total energy, over the kinetic energy at the
+/// start. The cube hits a floor.
 double surplus(const ContactMethod& method, double friction) {
   Problem p = touching_body(box_of("delaunay", {{0, 0, 0.01}, {0.1, 0.1, 0.11}}, {4, 4, 4}),
                             {"neo_hookean", 5e4, 0.4, 1000});
@@ -155,8 +155,9 @@ VerifyRows thrown_cube(const VerifyContext& context) {
 namespace {
 namespace reacting {
 
-/// What floor and tool do to a cube in each step against the change of its momentum: the largest
-/// difference, over the largest force.
+/// Returns the largest force that wrenches and gravity leave unexplained, over the largest force of
+/// floor and tool. It is the change of the cube's momentum in a step, over the step, less the
+/// forces of floor, tool and gravity.
 double unexplained(const ContactMethod& method) {
   Problem p = touching_body(box_of("delaunay", {{0, 0, 0}, {0.1, 0.1, 0.1}}, {4, 4, 4}),
                             {"neo_hookean", 2e4, 0.4, 1000});

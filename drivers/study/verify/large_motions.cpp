@@ -7,7 +7,7 @@
 #include <plica/drivers/study/verify/box_meshes.hpp>
 #include <plica/drivers/study/verify/list.hpp>
 
-// What nodal elements would not survive with modes that have no energy.
+// Large motions in which nodal elements would fail if they had modes without energy.
 namespace plica {
 
 namespace {
@@ -59,7 +59,8 @@ VerifyRows free_spin(const VerifyContext& context) {
 
 namespace {
 
-/// The stretch across at which a body that is stretched along has no stress across, by bisection.
+/// Returns the stretch across at which a body with the stretch `along` has no stress across, by
+/// bisection.
 double stretch_across(double along, const Lame<double>& c) {
   double low = 1, high = 1 / along;
   for (int i = 0; i < 100; ++i) {
@@ -70,9 +71,9 @@ double stretch_across(double along, const Lame<double>& c) {
   return (low + high) / 2;
 }
 
-/// The least height, over that at rest, to which a cube between lubricated plates keeps the affine
-/// answer, by steps of 0.025 to 0.4; it is disturbed before each of them. A quarter, between its
-/// planes of symmetry.
+/// Returns the least height, over that at rest, down to which a cube between lubricated plates
+/// keeps the affine solution. The height falls by steps of 0.025 to 0.4, and the cube is disturbed
+/// before each step. The mesh is a quarter of the cube, between its planes of symmetry.
 double least_height(const Problem& p, int n) {
   constexpr double side = 0.1, step = 0.025, last = 0.4;
   const std::vector<Point>& X = p.body.levels[0].vertices;
@@ -95,7 +96,7 @@ double least_height(const Problem& p, int n) {
     try {
       options.start = static_equilibrium(probe, options);
     } catch (const std::runtime_error&) {
-      break;  // no balance near the affine one
+      break;  // no equilibrium near the affine one
     }
     const double across = stretch_across(height, lame_constants(m.young_modulus, m.poisson_ratio));
     for (std::size_t a = 0; a < X.size(); ++a)

@@ -5,26 +5,27 @@
 
 namespace plica {
 
-/// Thrown where the caller wants no more.
+/// Exception that ends verify() where the caller stops it.
 struct VerifyStopped {};
 
-/// What a problem is told about how it is to be solved.
+/// Settings under which a problem is solved.
 struct VerifyContext {
-  bool small = false;
-  std::function<bool()> go_on;
+  bool small = false;           ///< true: coarser meshes
+  std::function<bool()> go_on;  ///< false ends verify()
 
-  /// To be called before each piece of work.
+  /// Throws VerifyStopped where the caller stops; call it before each piece of work.
   void proceed() const {
     if (go_on && !go_on()) throw VerifyStopped{};
   }
-  /// Three numbers of cells, each twice the one before; the first of the small version is half the
-  /// `coarsest`, which is even.
+  /// Returns three numbers of cells, each twice the one before. The first is `coarsest`, which must
+  /// be even; in the small version it is half of that.
   std::vector<int> refined(int coarsest) const {
     const int first = small ? coarsest / 2 : coarsest;
     return {first, 2 * first, 4 * first};
   }
 };
 
+/// Returns the name of a mesh by its cells, "40x2x2".
 inline std::string cells_text(int x, int y, int z) {
   return std::to_string(x) + "x" + std::to_string(y) + "x" + std::to_string(z);
 }
@@ -65,14 +66,14 @@ VerifyRows reactions(const VerifyContext&);
 VerifyRows hertz_contact(const VerifyContext&);
 VerifyRows collision(const VerifyContext&);
 
-/// A problem with a known answer.
+/// A problem with a known solution.
 struct VerifyProblem {
   const char* name;
   const char* summary;
   VerifyRows (*rows)(const VerifyContext&);
 };
 
-/// All there are. One more: its file in this folder, its function above, its line here.
+/// All problems. A new problem needs a file in this folder, a function above, and a line here.
 inline constexpr VerifyProblem verify_list[] = {
     {"affine_patch", "an irregular mesh takes an affine deformation exactly, in every material",
      affine_patch},

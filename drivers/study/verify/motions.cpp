@@ -15,7 +15,8 @@ namespace stopped {
 constexpr double bar_young = 205e9, nu = 0.3, rho = 7850, length = 20e-3, width = 1e-3, speed = 0.1,
                  duration = 50e-6;  // SI
 
-// v at the free end: +v until the front comes, at L/c, then -v and +v for 2L/c each
+// Returns the velocity of the free end. It is +v until the front arrives at L/c, then -v and +v for
+// 2L/c each
 double exact(double t) {
   const double fronts = (t * std::sqrt(bar_young / rho) / length + 1) / 2;
   return static_cast<long>(fronts) % 2 == 0 ? speed : -speed;
@@ -31,7 +32,7 @@ Pulses pulses(int n) {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.body.initial.velocity = {-speed, 0, 0};
   Simulation<HostBackend> simulation(p);
-  std::vector<std::size_t> face;  // the free end: its mean is what bar theory speaks of
+  std::vector<std::size_t> face;  // vertices of the free end; bar theory gives their mean velocity
   for (std::size_t a = 0; a < p.body.levels[0].vertices.size(); ++a)
     if (p.body.levels[0].vertices[a][0] > length - 1e-9) face.push_back(a);
   const auto velocity = simulation.velocity();
@@ -106,7 +107,7 @@ namespace {
 namespace twisting {
 
 constexpr double height = 6, duration = 0.25, spin = 105,
-                 steps_below_limit = 0.5;  // m, s, rad/s, stiffening stays below it
+                 steps_below_limit = 0.5;  // m, s, rad/s, step over the limit at rest
 
 struct Twist {
   double largest = 0, when = 0, energy = 0;
@@ -135,7 +136,7 @@ Twist twist(const std::string& element, int n) {
     simulation.step();
     Kokkos::fence("plica::twisting_column");
     const double x = corner[0] + u(probe, 0), z = corner[2] + u(probe, 2);
-    // about y, from z to x
+    // angle about y, from z to x
     const double turned = std::atan2(corner[2], corner[0]) - std::atan2(z, x);
     angle += std::remainder(turned - angle, 2 * std::numbers::pi);
     if (angle > found.largest) found.largest = angle, found.when = simulation.time();
@@ -180,8 +181,8 @@ VerifyRows twisting_column(const VerifyContext& context) {
 namespace {
 namespace manufactured {
 
-// u(X, t) = d sin(w t) phi(X), phi = sin(pi X) sin(pi Y) sin(pi Z) on the unit cube, whose boundary
-// is fixed
+// Motion u(X, t) = d sin(w t) phi(X), phi = sin(pi X) sin(pi Y) sin(pi Z) of the unit cube. Its
+// boundary is fixed
 constexpr double pi = std::numbers::pi, omega = 2 * pi, duration = 0.3, rho = 1000;
 const Point direction(0.06, -0.04, 0.05);
 const MaterialOptions soft_matter{NeoHookean::name, 20e3, 0.3, rho};
@@ -201,7 +202,7 @@ Phi phi_at(const Point& X) {
   return phi;
 }
 
-// b = rho0 u'' - Div P(I + grad u) [N/m^3], Div P_i = sum_k (dP/dF : dF/dX_k)_ik
+// Returns b = rho0 u'' - Div P(I + grad u) [N/m^3], with Div P_i = sum_k (dP/dF : dF/dX_k)_ik
 Point body_force(const Phi& phi, double t) {
   const Lame<double> c = lame_constants(soft_matter.young_modulus, soft_matter.poisson_ratio);
   const double s = std::sin(omega * t);
@@ -223,11 +224,11 @@ Problem cube(const std::string& element, int n) {
     p.body.fixed.push_back(HalfSpaceSelection{Point::Zero(), Point::Unit(k)});
     p.body.fixed.push_back(HalfSpaceSelection{Point::Ones(), -Point::Unit(k)});
   }
-  p.integration.integrator = {"rk4"};  // its error in time is far below that of any of these meshes
+  p.integration.integrator = {"rk4"};  // error in time far below the error of any of these meshes
   return p;
 }
 
-// L2 errors of displacement and velocity at the end, relative
+// Returns the relative L2 errors of displacement and velocity at the end
 std::array<double, 2> errors(const std::string& element, int n) {
   const Problem p = cube(element, n);
   const TetMesh& mesh = p.body.levels[0];
@@ -271,7 +272,7 @@ VerifyRows manufactured_solution(const VerifyContext& context) {
         {.quantity = "error of the velocity against the chosen motion, L2 relative"}};
     for (VerifyRow& row : rows) {
       row.element = element, row.unit = "1", row.accepted = 2, row.judged = Judged::order;
-      // 8 cells are few for nodal ones
+      // 8 cells are few for nodal elements
       row.tolerance = element == "nodal" && context.small ? 0.4 : 0.3;
       row.source =
           "h^2 of linear elements (Hughes, The Finite Element Method, 4.1); b = rho0 x'' - Div P "

@@ -6,7 +6,8 @@
 
 namespace plica {
 
-// The deformation is affine: every mesh has it exactly, an irregular one too.
+// Solves a bar in tension. The deformation is affine, so that every mesh gives it exactly, also an
+// irregular one.
 VerifyRows uniaxial_tension(const VerifyContext& context) {
   context.proceed();
   const double E = 20e3, nu = 0.3, p_over_E = 1e-3, L = 0.4, w = 0.1;
@@ -15,7 +16,7 @@ VerifyRows uniaxial_tension(const VerifyContext& context) {
       verify_body(jittered_box({{0, 0, 0}, {L, w, w}}, {4 * n, n, n}), {"linear", E, nu, 1000});
   p.body.loads = {{HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}, Traction{{-p_over_E * E, 0, 0}}, {}},
                   {HalfSpaceSelection{{L, 0, 0}, {-1, 0, 0}}, Traction{{p_over_E * E, 0, 0}}, {}}};
-  const auto held = [=](const Point& X, int axis) {  // rigid motion, at three corners
+  const auto held = [=](const Point& X, int axis) {  // fixes rigid motion, at three corners
     if (X.norm() < 1e-9) return true;
     return ((X - Point(L, 0, 0)).norm() < 1e-9 && axis > 0) ||
            ((X - Point(0, 0, w)).norm() < 1e-9 && axis == 1);
@@ -40,7 +41,8 @@ VerifyRows uniaxial_tension(const VerifyContext& context) {
 
 namespace {
 
-// (0,0) (48,44) (48,60) (0,44) mm, 1 mm thick, in plane strain, one layer of cells
+// Returns Cook's membrane in plane strain, 1 mm thick, with one layer of cells. Its corners are
+// (0,0) (48,44) (48,60) (0,44) mm
 Problem membrane(int n) {
   constexpr double mm = 1e-3, mu = 422.5e3, nu = 0.3;
   TetMesh mesh = grid_mesh({n, n, 1}, {false, false, false}, [](const Point& s) {
@@ -87,8 +89,8 @@ namespace {
 
 constexpr double pillar_young = 2e11, nu = 0.3, rho = 7800, g = 9.81, length = 3, half = 0.5;
 
-// Hung at its upper end, z = L, where a uniform traction carries it; a quarter, between its planes
-// of symmetry.
+// Returns a quarter of a hanging bar, between its planes of symmetry. A uniform traction carries it
+// at its upper end, z = L.
 Problem bar(int n) {
   Problem p = verify_body(box_mesh({{0, 0, 0}, {half, half, length}}, {n, n, 6 * n}),
                           {"linear", pillar_young, nu, rho});

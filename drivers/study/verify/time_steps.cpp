@@ -48,7 +48,8 @@ VerifyRows time_order(const VerifyContext& context) {
         .unit = "m"};
     row.accepted = Kind::order, row.judged = Judged::order, row.tolerance = 0.1 * *row.accepted;
     row.source = "as `plica list integrators` states (Hairer & Wanner, Solving ODEs I and II)";
-    const int most = *row.accepted > 2 ? 80 : 320;  // between coarse steps and round-off
+    const int most =
+        *row.accepted > 2 ? 80 : 320;  // steps that are neither too coarse nor limited by round-off
     for (int steps = most / 4; steps <= most; steps *= 2)
       row.add(std::to_string(steps) + " steps", duration / steps,
               distance(positions_at_end(name, duration / steps), reference, alike));
@@ -67,7 +68,7 @@ Problem at_any_step(int cells, const std::string& integrator) {
   return p;
 }
 
-// From the dense matrix M^-1/2 K M^-1/2
+// Compares the critical step with eigenvalues of the dense matrix M^-1/2 K M^-1/2
 VerifyRow against_eigenvalues(int cells) {
   LevelProbe<HostBackend> probe(at_any_step(cells, "symplectic_euler"));
   const Eigen::MatrixXd S = probe.scaled_by_mass(probe.stiffness_matrix(probe.zero()));
@@ -112,7 +113,8 @@ VerifyRows critical_steps(const VerifyContext& context) {
     context.proceed();
     const LevelReport report =
         LevelProbe<HostBackend>(at_any_step(cells, integrator)).built.reports[0];
-    if (report.explicit_integrator && report.critical_step > 0)  // euler has none without damping
+    if (report.explicit_integrator &&
+        report.critical_step > 0)  // euler has no limit without damping
       rows.push_back(against_runs(integrator, report.critical_step, cells));
   }
   return rows;
@@ -122,7 +124,7 @@ namespace {
 
 constexpr int bit_steps = 50;
 
-// A free cube that spins, moves and shakes, without loads
+// Returns a free cube without loads, which will spin, move and vibrate
 Problem free_body(const std::string& cycle, const std::string& integrator) {
   Problem p = irregular_cube("st_venant_kirchhoff", 4);
   if (cycle != "single") {
@@ -131,7 +133,7 @@ Problem free_body(const std::string& cycle, const std::string& integrator) {
   }
   p.integration.cycle = cycle, p.integration.integrator = {integrator};
   p.integration.macro_step = 2e-4;
-  p.integration.allow_unstable = true;  // euler always is; so short a run shows little of it
+  p.integration.allow_unstable = true;  // euler always is unstable; a short run grows little
   p.integration.implicit.relative_residual = 1e-13, p.integration.implicit.newton_iterations = 10;
   p.integration.implicit.newton_tolerance = 1e-12;
   return p;
@@ -142,8 +144,8 @@ struct Budget {
   double energy = 0;
 };
 
-// Changes over the run: of the linear and angular momentum over the sum of m |v| and m |x| |v|, of
-// the energy over the kinetic
+// Returns three changes over the run. Linear momentum is taken over the sum of m |v|, angular
+// momentum over 0.1 m times that sum, and energy over the energy at the start
 std::array<double, 3> changes(const Problem& p) {
   const TetMesh& mesh = p.body.levels[0];
   Problem alone = p;

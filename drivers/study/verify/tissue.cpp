@@ -7,9 +7,9 @@
 #include <plica/drivers/study/verify/list.hpp>
 #include <plica/kernels/materials/list.hpp>
 
-// Laws of tissue in homogeneous states, against Cauchy's stress in closed form, written by
-// principal stretches: independent of the kernels, which know no stretches but for Ogden's law.
-// Fibres lie along z.
+// Laws of tissue in homogeneous states, against Cauchy's stress in closed form. The closed form is
+// written in principal stretches. It is thus independent of the kernels, which use stretches only
+// for Ogden's law. Fibres lie along z.
 namespace plica {
 
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr double edge = 0.1;  // [m]
 using Stretches = Eigen::Vector3d;
 
-/// A law with its parameters, as a scene has them.
+/// A law with the parameters that a scene gives.
 struct Law {
   std::string name;
   MaterialOptions material;
@@ -35,12 +35,12 @@ Law law_along_z(const MaterialInfo& info, const std::string& volume) {
   law.material.volume = volume;
   if (info.has_fibres) law.material.fibres = FibreOptions{Point::UnitZ(), Point::UnitX()};
   if (law.name == "holzapfel_gasser_ogden") law.material.parameters = {{"angle", 0}};
-  if (law.name == "costa")  // alike across the fibres
+  if (law.name == "costa")  // isotropic across the fibres
     law.material.parameters = {{"b_ss", 3}, {"b_nn", 3}, {"b_sn", 3}, {"b_fs", 4}, {"b_fn", 4}};
   return law;
 }
 
-/// Of a stretch l of the fibres: l dW/dl of their part alone.
+/// Returns l dW/dl of the fibres' part of the energy alone, at a stretch l of the fibres.
 double fibre_pull(const Law& law, double l, double I1) {
   if (law.name == "transversely_isotropic") return 2 * law["eta"] * (l * l - 1) * l * l;
   if (law.name != "holzapfel_gasser_ogden") return 0;
@@ -48,7 +48,7 @@ double fibre_pull(const Law& law, double l, double I1) {
   return 4 * law["k1"] * E * std::exp(law["k2"] * E * E) * l * l;  // two families
 }
 
-/// dW/dI1 and dW/dI2 of the part that has no fibres.
+/// Returns dW/dI1 and dW/dI2 of the part of the energy without fibres.
 std::array<double, 2> by_invariants(const Law& law, double I1, double I2) {
   const double x = I1 - 3, y = I2 - 3;
   if (law.name == "mooney_rivlin") return {law["c10"], law["c01"]};
@@ -69,7 +69,7 @@ std::array<double, 2> by_invariants(const Law& law, double I1, double I2) {
   return {law[law.name == "transversely_isotropic" ? "mu" : "c"] / 2, 0};
 }
 
-/// l_i dW/dl_i of isochoric stretches along x, y, z.
+/// Returns l_i dW/dl_i of isochoric stretches along x, y, z.
 Stretches pulls(const Law& law, const Stretches& l) {
   Stretches t;
   const double I1 = l.squaredNorm(), I2 = l.cwiseInverse().squaredNorm();
@@ -98,15 +98,15 @@ double pressure(const Law& law, double J) {
   return law.material.volume == "quadratic" ? k * (J - 1) : k / 2 * (J - 1 / J);
 }
 
-/// Cauchy's stress along x, y, z.
+/// Returns Cauchy's stress along x, y, z.
 Stretches principal_stress(const Law& law, const Stretches& l) {
   const double J = l.prod();
   const Stretches t = pulls(law, l / std::cbrt(J));
   return (t.array() - t.mean()).matrix() / J + Stretches::Constant(pressure(law, J));
 }
 
-/// The stretches with these given along some axes (0: free), the others alike and without stress:
-/// by bisection, as a stress rises with its own stretch.
+/// Returns the stretches along x, y, z. Those given are kept; free ones (0) are equal and without
+/// stress. Bisection finds them, since a stress rises with its own stretch.
 Stretches with_free_sides(const Law& law, const Stretches& given) {
   const auto at = [&](double side) {
     return Stretches(given.unaryExpr([side](double l) { return l > 0 ? l : side; }));
@@ -121,8 +121,8 @@ Stretches with_free_sides(const Law& law, const Stretches& given) {
   return at((low + high) / 2);
 }
 
-/// Cauchy's stress xz of x += shear z, where volumes stay: by the principal stretches where there
-/// are no fibres.
+/// Returns Cauchy's stress xz of the shear x += shear z, which keeps the volume. The part without
+/// fibres is computed by principal stretches.
 double shear_stress(const Law& law, double shear) {
   if (law.name == "costa") {
     const double E = shear * shear / 2, Q = law["b_ff"] * E * E + law["b_fs"] * shear * shear / 2;
@@ -141,8 +141,8 @@ double shear_stress(const Law& law, double shear) {
   return fibres + (t[0] - t[2]) / root;
 }
 
-/// The mean first Piola-Kirchhoff stress of the deformed box and its largest force off the faces
-/// that are held.
+/// Mean first Piola-Kirchhoff stress of the deformed box, and the largest force on a vertex away
+/// from the fixed faces.
 struct Found {
   Eigen::Matrix3d P;
   double free = 0;

@@ -7,9 +7,9 @@
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/verify/list.hpp>
 
-// Boxes whose isochoric second Piola stress S_e is a given function of time times a constant: their
-// shape stays and their size changes, since S_e of F = s F_0 is S_e(F_0)/s^2. What is left of the
-// elastic stress is then known in closed form.
+// Boxes whose isochoric second Piola stress S_e is a given function of time times a constant. Their
+// shape stays and their size changes, since S_e of F = s F_0 is S_e(F_0)/s^2. The relaxed stress is
+// then known in closed form.
 namespace plica {
 
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr double box_edge = 0.1;  // [m]
 const std::vector<PronyTerm> two_terms = {{0.3, 0.02}, {0.4, 0.5}};
 
-/// A body that is deformed as one likes.
+/// A box to which sizes s of the deformation s F_0 are applied.
 class StretchedBox {
  public:
   StretchedBox(const MaterialInfo& law, const std::string& element)
@@ -26,8 +26,9 @@ class StretchedBox {
     unit_ = deviator(1);
   }
 
-  /// The stress of shape at `time` [s] over the elastic one at the start, where S_e has `size`
-  /// times its first value; `final`: the body goes on from there.
+  /// Returns the stress of shape at `time` [s] over the elastic one at the start.
+  /// @param size   S_e over its first value
+  /// @param final  true: later calls start from this state
   double stress(double size, double time, bool final) {
     apply(size, time, final);
     return deviator(1 / std::sqrt(size)) / unit_;
@@ -55,7 +56,7 @@ class StretchedBox {
     f_ = probe_.force(u, std::vector<Point>(u.size(), Point::Zero()), time);
   }
 
-  /// zz - xx of P F^T / s^2: no pressure is in it.
+  /// Returns zz - xx of P F^T / s^2, which contains no pressure.
   double deviator(double s) const {
     const Eigen::Matrix3d P =
         virial(f_, probe_.problem.body.levels[0]) / (box_edge * box_edge * box_edge);
@@ -70,7 +71,7 @@ double left_after(double t) {
   return sum;
 }
 
-/// Of S_e = 1 + rate t.
+/// Returns the relaxed stress for S_e = 1 + rate t.
 double left_of_ramp(double rate, double t) {
   double sum = 1 + rate * t;
   for (const auto& [alpha, tau] : two_terms)
@@ -78,8 +79,8 @@ double left_of_ramp(double rate, double t) {
   return sum;
 }
 
-/// The parts of the answer to S_e = 1 + a sin wt in phase and a quarter of a turn ahead, over a,
-/// once the start is forgotten.
+/// Returns the parts of the response to S_e = 1 + a sin wt, over a, after the start has decayed:
+/// {in phase, a quarter of a turn ahead}.
 std::array<double, 2> moduli(StretchedBox& box, double w, double a, int steps) {
   const double period = 2 * std::numbers::pi / w, h = period / steps;
   const int before = static_cast<int>(std::ceil(15 * 0.5 / period)) * steps;

@@ -5,15 +5,15 @@
 
 namespace plica {
 
-/// A solid box.
+/// Options of a solid box.
 struct BlockOptions {
   Point centre = Point::Zero();  ///< [m]
   Point size = Point::Ones();    ///< edges [m]
-  /// about the centre: its direction is the axis, its length the angle [rad]
+  /// Rotation about the centre: the direction is the axis, the length the angle [rad]
   Point rotation = Point::Zero();
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a box: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, BlockOptions& o) {
   using namespace keys;
@@ -23,7 +23,7 @@ void describe(V& v, BlockOptions& o) {
     "about the centre: [0, 0, 30 deg] turns it by 30 degrees about z");
 }
 
-/// A box, turned as one likes: the nearest point of a face, an edge or a corner.
+/// Box in any orientation. The nearest point is on a face, an edge or a corner.
 struct Block {
   static constexpr const char* name = "box";
   static constexpr const char* summary = "a solid box";
@@ -34,8 +34,8 @@ struct Block {
   struct Shape {
     static constexpr bool convex = true;
     Vec3<Real> centre;
-    Mat3<Real> axes;  ///< its rows are the directions of the edges
-    Vec3<Real> half;  ///< of the edges' lengths
+    Mat3<Real> axes;  ///< rows: directions of the edges
+    Vec3<Real> half;  ///< half of the edges' lengths
 
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = axes * (x - centre);

@@ -7,16 +7,16 @@
 
 namespace plica {
 
-/// A block with flat top out of which a sphere is hollowed: the inside of a spherical shell, up to
-/// its rim.
+/// Options of a bowl: a block with flat top out of which a sphere is hollowed. It is the inside of
+/// a spherical shell, up to its rim.
 struct BowlOptions {
-  Point centre = Point::Zero();  ///< of the sphere [m]
+  Point centre = Point::Zero();  ///< centre of the sphere [m]
   double radius = 1;             ///< [m]
-  /// height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
+  /// Height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
   double rim = 0;
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a bowl: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, BowlOptions& o) {
   using namespace keys;
@@ -26,9 +26,9 @@ void describe(V& v, BowlOptions& o) {
     "height of the rim above the lowest point; 0: the radius");
 }
 
-/// A block whose flat top is at height `rim` above the lowest point of a sphere hollowed out of it:
-/// inside a spherical shell below the rim, the top's plane beside it, and the rim's edge seen from
-/// above.
+/// Block whose flat top is at height `rim` above the lowest point of a sphere hollowed out of it.
+/// The nearest point is on the spherical shell below the rim, on the top's plane beside it, or,
+/// seen from above, on the rim's edge.
 struct Bowl {
   static constexpr const char* name = "bowl";
   static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
@@ -40,7 +40,7 @@ struct Bowl {
     static constexpr bool convex = false;
     Vec3<Real> centre;
     Real radius;
-    Real top;  ///< of the rim's plane above the centre, rim - radius <= 0
+    Real top;  ///< height of the rim's plane above the centre, rim - radius <= 0
 
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - centre;

@@ -5,14 +5,15 @@
 
 namespace plica {
 
-/// All points within the radius of the straight line between two points, its ends round.
+/// Options of a capsule: all points within the radius of the straight line between two points, its
+/// ends round.
 struct CapsuleOptions {
   Point from = Point::Zero();  ///< [m]
   Point to = Point::UnitZ();   ///< another point [m]
   double radius = 1;           ///< [m]
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a capsule: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, CapsuleOptions& o) {
   using namespace keys;
@@ -21,7 +22,7 @@ void describe(V& v, CapsuleOptions& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "around the line and its ends");
 }
 
-/// All points within `radius` of a straight line with two ends.
+/// Capsule: all points within `radius` of a straight line with two ends.
 struct Capsule {
   static constexpr const char* name = "capsule";
   static constexpr const char* summary = "a cylinder with round ends";

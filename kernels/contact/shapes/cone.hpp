@@ -7,15 +7,15 @@
 
 namespace plica {
 
-/// A solid cone with flat ends, or one of them a tip.
+/// Options of a solid cone with flat ends, or with a tip for one of them.
 struct ConeOptions {
   Point from = Point::Zero();  ///< centre of one end [m]
-  Point to = Point::UnitZ();   ///< of the other, another point [m]
+  Point to = Point::UnitZ();   ///< centre of the other end, another point [m]
   double radius = 1;           ///< at from [m]
   double to_radius = 0;        ///< at to, 0: a tip [m]
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a cone: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, ConeOptions& o) {
   using namespace keys;
@@ -25,12 +25,12 @@ void describe(V& v, ConeOptions& o) {
   v("to_radius", o.to_radius, Quantity{length, not_negative}, "at to; 0: a tip");
 }
 
-/// A cone with flat ends or a tip.
+/// Cone with flat ends or a tip.
 struct Cone {
   static constexpr const char* name = "cone";
   static constexpr const char* summary = "a cone with a tip or flat ends";
   static Point origin(const ConeOptions& o) { return (o.from + o.to) / 2; }
-  // Of its narrower end, which fits between points before the rest does; 0: a tip.
+  // Takes the narrower end, which fits between points before the rest does; 0: a tip.
   static double radius(const ConeOptions& o) {
     return std::min({o.radius, o.to_radius, (o.to - o.from).norm() / 2});
   }
@@ -40,7 +40,7 @@ struct Cone {
     static constexpr bool convex = true;
     Vec3<Real> from, axis;           ///< axis: a unit vector
     Real length, radius, to_radius;  ///< radius: at from
-    /// its side's length; the unit vector along it, across the axis and along it
+    /// Length of the side; unit vector along the side: its parts across the axis and along it
     Real side, widening, rising;
 
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {

@@ -6,14 +6,14 @@
 
 namespace plica {
 
-/// A solid cylinder with flat ends.
+/// Options of a solid cylinder with flat ends.
 struct CylinderOptions {
   Point from = Point::Zero();  ///< centre of one end [m]
-  Point to = Point::UnitZ();   ///< of the other, another point [m]
+  Point to = Point::UnitZ();   ///< centre of the other end, another point [m]
   double radius = 1;           ///< [m]
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a cylinder: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, CylinderOptions& o) {
   using namespace keys;
@@ -22,7 +22,7 @@ void describe(V& v, CylinderOptions& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "radius");
 }
 
-/// A cylinder with flat ends.
+/// Cylinder with flat ends.
 struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* summary = "a cylinder with flat ends";

@@ -6,13 +6,13 @@
 
 namespace plica {
 
-/// The half-space below a plane is solid.
+/// Options of a plane: the half-space below it is solid.
 struct PlaneOptions {
-  Point point = Point::Zero();    ///< on the plane [m]
+  Point point = Point::Zero();    ///< point on the plane [m]
   Point normal = Point::UnitZ();  ///< out of the solid; its length does not matter
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a plane: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, PlaneOptions& o) {
   using namespace keys;
@@ -20,7 +20,7 @@ void describe(V& v, PlaneOptions& o) {
   v("normal", o.normal, Direction{}, "out of the solid; its length does not matter");
 }
 
-/// The solid below a plane through `point` with unit normal `normal`.
+/// Solid half-space below a plane through `point` with unit normal `normal`.
 struct Plane {
   static constexpr const char* name = "plane";
   static constexpr const char* summary = "the half-space below a plane";

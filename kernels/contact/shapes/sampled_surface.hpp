@@ -6,18 +6,19 @@
 
 namespace plica {
 
-/// The inside of a closed surface, by its signed distance on a regular grid; or a sheet, with two
-/// sides.
+/// Options of the inside of a closed surface, by its signed distance on a regular grid; or of a
+/// sheet, which has two sides.
 struct SurfaceOptions {
-  /// closed, every triangle counter-clockwise seen from outside; or any, with a thickness
+  /// Closed surface, every triangle counter-clockwise seen from outside; or any, with a thickness
   TriangleSurface surface;
-  /// of the grid along the surface's longest extent; 0: chosen from its shape
+  /// Cells of the grid along the surface's longest extent; 0: chosen from its shape
   int cells = 0;
-  /// of a sheet: all that is no further from the surface than half of it [m]; 0: its inside
+  /// Thickness of a sheet [m], all that is no further from the surface than half of it; 0: the
+  /// inside
   double thickness = 0;
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a surface: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, SurfaceOptions& o) {
   using namespace keys;
@@ -28,9 +29,9 @@ void describe(V& v, SurfaceOptions& o) {
     "surface");
 }
 
-/// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in
-/// between; the normal is the gradient's direction. Outside the grid the distance is a lower bound:
-/// that to the grid and its margin.
+/// Inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in
+/// between. The normal is the gradient's direction. Outside the grid the distance is a lower bound:
+/// the distance to the grid and its margin.
 struct SampledSurface {
   static constexpr const char* name = "surface";
   static constexpr const char* summary =
@@ -40,9 +41,9 @@ struct SampledSurface {
   template <class Real>
   struct Shape {
     static constexpr bool convex = false;
-    const Real* value;  ///< [nodes of z][of y][of x] m, in the memory of whoever asks
+    const Real* value;  ///< [nodes of z][of y][of x] m, in memory that the calling code can read
     int nodes[3];       ///< along x, y, z; each at least 2
-    Vec3<Real> origin;  ///< the lowest node
+    Vec3<Real> origin;  ///< lowest node
     Real cell;          ///< [m]
     Real margin;        ///< no node on the grid's outside is nearer to the surface [m]
 

@@ -5,13 +5,13 @@
 
 namespace plica {
 
-/// A solid sphere.
+/// Options of a solid sphere.
 struct SphereOptions {
   Point centre = Point::Zero();  ///< [m]
   double radius = 1;             ///< [m]
 };
 
-/// Its parameters, named, with kind, unit, range and meaning.
+/// Describes the parameters of a sphere: name, kind, unit, range and meaning.
 template <class V>
 void describe(V& v, SphereOptions& o) {
   using namespace keys;
@@ -19,7 +19,7 @@ void describe(V& v, SphereOptions& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "radius");
 }
 
-/// A solid sphere.
+/// Solid sphere.
 struct Sphere {
   static constexpr const char* name = "sphere";
   static constexpr const char* summary = "a solid sphere";
