@@ -63,7 +63,7 @@ struct Backend {
 /// List of these, and of float beside each in double: preconditioners of runs in double use float.
 #define PLICA_FOR_EACH_PRECISION(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_BOTH, DO)
 
-/// Whether simulations run in that precision.
+/// True where simulations run in that precision.
 template <class Real>
 inline constexpr bool is_built = true;
 #ifdef PLICA_WITHOUT_FLOAT

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <plica/drivers/app/scene/older_keys.hpp>
 
 #include "support/refusal.hpp"
