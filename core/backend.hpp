@@ -63,7 +63,7 @@ struct Backend {
 /// List of these, and of float beside each in double: preconditioners of runs in double use float.
 #define PLICA_FOR_EACH_PRECISION(DO) PLICA_FOR_ALL_SPACES(PLICA_IN_BOTH, DO)
 
-/// Whether simulations run in that precision.
+/// True where simulations run in that precision.
 template <class Real>
 inline constexpr bool is_built = true;
 #ifdef PLICA_WITHOUT_FLOAT
@@ -103,7 +103,7 @@ template <class Real, class Member>
 KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::size_t count) {
   Real* const memory =
       static_cast<Real*>(team.team_scratch(level).get_shmem_aligned(count * sizeof(Real), 64));
-  like_device::spoil(team, memory, count);
+  like_device::poison(team, memory, count);
   return memory;
 }
 

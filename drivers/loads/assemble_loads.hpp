@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <vector>

@@ -89,7 +89,7 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
 }
 
 template <class B>
-double cavity_eigenvalue(const Level<B>& level) {
+double cavity_eigenvalue(const LevelData<B>& level) {
   const auto inverse_mass = on_host(level.model.inverse_mass);
   double sum = 0;
   for (const FollowerLoad<B>& load : level.followers) {
@@ -111,7 +111,7 @@ double cavity_eigenvalue(const Level<B>& level) {
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) \
-  template double cavity_eigenvalue<Backend<Real, Exec>>(const Level<Backend<Real, Exec>>&);
+  template double cavity_eigenvalue<Backend<Real, Exec>>(const LevelData<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

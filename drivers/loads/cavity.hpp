@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/load.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <vector>
@@ -29,6 +29,6 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
 /// [1/s^2]. The stiffness of one fluid is K a a^T / V with a = dV/dx. a is as large as areas: those
 /// at rest, grown to `ratio` alike in all directions where that is above 1.
 template <class B>
-double cavity_eigenvalue(const Level<B>& level);
+double cavity_eigenvalue(const LevelData<B>& level);
 
 }  // namespace plica

@@ -83,7 +83,7 @@ class HierarchyBuilder {
     phase("planning the steps", [&] { plan(); });
     if (starts_deformed(problem_.body.initial)) deform();
     built_.stepper->start(*built_.hierarchy);
-    for (const auto& level : built_.hierarchy->levels) level.remember(0);
+    for (const auto& level : built_.hierarchy->levels) level.accept_state(0);
     return std::move(built_);
   }
 
@@ -208,7 +208,7 @@ class HierarchyBuilder {
 
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
+    LevelData<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
     level.loads = device_loads<B>(problem_.body, loads_[i]);
     level.followers = followers_[i];
     if (needs_.drift_limits && levels_ > 1) {
@@ -283,7 +283,7 @@ class HierarchyBuilder {
 
   void connect(std::size_t i) {
     const Outside rule = outside_rule(problem_.integration);
-    Level<B>& level = built_.hierarchy->levels[i];
+    LevelData<B>& level = built_.hierarchy->levels[i];
     const Embedding &down = down_[i], &up = up_[i];
     if (rule == Outside::keep && down.misses + up.misses > 0)
       throw InputError("integration.outside is keep, but " + std::to_string(down.misses) +
@@ -338,7 +338,7 @@ class HierarchyBuilder {
   /// Finds level i's critical step, and makes its integrator and the forces on it.
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
-    SolverLevel<B>& level = built_.hierarchy->levels[i];
+    Level<B>& level = built_.hierarchy->levels[i];
     // not the level's state, in which a given motion may start elsewhere
     const auto rest =
         zeros<Vectors<B>>("plica::rest", static_cast<std::size_t>(level.model.vertices));

@@ -23,7 +23,7 @@ class LevelProbe {
   Problem problem;
   BuiltHierarchy<B> built;
 
-  SolverLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
+  Level<B>& at(int i) { return (*built.hierarchy)[i]; }
   std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).model.vertices); }
   std::vector<Point> zero(int i = 0) { return std::vector<Point>(vertices(i), Point::Zero()); }
 
@@ -39,7 +39,7 @@ class LevelProbe {
   /// Returns K(u) p, the elastic stiffness alone.
   std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p,
                                int i = 0) {
-    const Level<B>& level = at(i);
+    const LevelData<B>& level = at(i);
     at(i).tangent(state(u, p), device_field<B>(p));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     const auto host = [](const auto& view) {
@@ -74,7 +74,7 @@ class LevelProbe {
 
   /// Returns the elastic energy of level 0 [J], a sum of the vertices' shares.
   double elastic_energy(const std::vector<Point>& u) {
-    const Level<B>& level = at(0);
+    const LevelData<B>& level = at(0);
     at(0).elasticity().energy(built.hierarchy->exec(), level, device_field<B>(u));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     double sum = 0;
