@@ -127,8 +127,6 @@ struct LevelData {
   Model<B> model;
   State<B> state;
   PrescribedVertices<B> prescribed;
-  std::vector<Load<B>> loads;
-  std::vector<FollowerLoad<B>> followers;
   EmbeddedSurface<B> surface;  ///< with contact; on level 0 also for output
 
   Vectors<B> f;  ///< [vertices][3] force at the state about to be integrated [N]

@@ -16,12 +16,7 @@ namespace plica {
 
 template <class B>
 Level<B>::Level(LevelData<B>&& data, StageTimer<B>& clock, int number)
-    : LevelData<B>(std::move(data)), clock_(&clock), number_(number) {
-  int most = 0;
-  for (const FollowerLoad<B>& load : this->followers)
-    if (load.volume.extent(0) > 0) most = std::max(most, load.count);
-  if (most > 0) volumes_ = BlockSums<B>(most), rate_ = zeros<Doubles<B>>("plica::volume_rate", 1);
-}
+    : LevelData<B>(std::move(data)), clock_(&clock), number_(number) {}
 template <class B>
 Level<B>::Level(Level&&) noexcept = default;
 template <class B>
@@ -52,111 +47,47 @@ void Level<B>::element_force(const State<B>& at, double time, const Vectors<B>& 
 }
 
 template <class B>
-void Level<B>::add_loads(double time, const Vectors<B>& force) const {
-  for (const Load<B>& load : this->loads)
-    add_load<B>(exec(), load, load_factor(load.course, time), force);
+void Level<B>::add_term_product(const State<B>& at, const Vectors<B>& p, double scale,
+                                bool projected, const Vectors<B>& q) const {
+  for (const auto& term : terms) term->add_product(exec(), at, p, scale, projected, q);
 }
 
 template <class B>
-GivenPressure<B> Level<B>::given_pressure(const FollowerLoad<B>& load, double time) const {
-  return {static_cast<typename B::Real>(load.pressure * load_factor(load.course, time))};
+bool Level<B>::has_terms(TermStiffness kind) const {
+  return std::ranges::any_of(terms, [&](const auto& term) { return term->stiffness() == kind; });
 }
 
 template <class B>
-void Level<B>::add_followers(const State<B>& at, double time, const Vectors<B>& force) {
-  follower_time_ = time;
-  const auto add = [&]<class Pressure>(const FollowerLoad<B>& load, const Pressure& pressure) {
-    update_vertices<B>(exec(), "plica::follower_pressure", load.count,
-                       AddFollowerPressure<B, Pressure>{{load, at.u}, force, pressure});
-  };
-  for (const FollowerLoad<B>& load : this->followers) {
-    if (load.cavity) {
-      measure(load, at.u);
-      add(load, last_pressure(load, time));
-    } else {
-      add(load, given_pressure(load, time));
-    }
-  }
+double Level<B>::term_energy(double time) const {
+  double sum = 0;
+  for (const auto& term : terms) sum += term->energy(exec(), this->state, time);
+  return sum;
 }
 
 template <class B>
-void Level<B>::add_follower_product(const State<B>& at, const Vectors<B>& p, double scale,
-                                    bool projected, const Vectors<B>& q) const {
-  const auto add = [&]<class Pressure>(const FollowerPlaces<B>& place, const Pressure& pressure) {
-    update_vertices<B>(exec(), "plica::follower_product", place.load.count,
-                       AddFollowerProduct<B, Pressure>{place, p, q, pressure,
-                                                       static_cast<typename B::Real>(scale)});
-  };
-  for (const FollowerLoad<B>& load : this->followers) {
-    const FollowerPlaces<B> place{load, at.u};
-    if (!load.cavity) {
-      if (!projected) add(place, given_pressure(load, follower_time_));
-      continue;
-    }
-    const FluidPressure<B> fluid = last_pressure(load, follower_time_);
-    if (!projected) add(place, fluid);
-    reduce<B, 1>(exec(), "plica::volume_rate", load.count, VolumeRateOfCorner<B>{place, p},
-                 volumes_, rate_);
-    update_vertices<B>(exec(), "plica::fluid_product", load.count,
-                       AddFluidProduct<B>{place, q, rate_, fluid.stiffness, scale});
-  }
+double Level<B>::term_frequency() const {
+  double sum = 0;
+  for (const auto& term : terms) sum += term->squared_frequency(*this);
+  return sum;
+}
+
+template <class B>
+std::vector<CavityState> Level<B>::cavities(double time) const {
+  std::vector<CavityState> all;
+  for (const auto& term : terms)
+    for (const CavityState& cavity : term->cavities(exec(), this->state, time))
+      all.push_back(cavity);
+  return all;
 }
 
 template <class B>
 void Level<B>::add_product_beside_matrix(const State<B>& at, const Vectors<B>& p,
                                          const ImplicitWeights& weights, bool projected,
                                          const Vectors<B>& q) const {
-  add_follower_product(at, p, weights.a, projected, q);
+  for (const auto& term : terms)
+    if (term->stiffness() == TermStiffness::unassembled)
+      term->add_product(exec(), at, p, weights.a, projected, q);
   if (contact_) response_.add_product(exec(), *this, p, true, q);
-}
-
-template <class B>
-double Level<B>::follower_energy(double time) const {
-  double sum = 0;
-  for (const FollowerLoad<B>& load : this->followers) {
-    if (load.volume.extent(0) == 0) continue;
-    const double volume = enclosed_volume(load),
-                 pressure = load.pressure * load_factor(load.course, time);
-    if (!load.cavity)
-      sum -= pressure * volume;
-    else
-      sum += load.cavity->stiffness() / 2 * std::pow(volume_given(load, time) - volume, 2);
-  }
-  return sum;
-}
-
-template <class B>
-void Level<B>::measure(const FollowerLoad<B>& load, const Vectors<B>& u) const {
-  reduce<B, 1>(exec(), "plica::enclosed_volume", load.count, VolumeOfCorner<B>{{load, u}}, volumes_,
-               load.volume);
-}
-
-template <class B>
-double Level<B>::enclosed_volume(const FollowerLoad<B>& load) const {
-  measure(load, this->state.u);
-  return host_values(exec(), load.volume)[0];
-}
-
-template <class B>
-FluidPressure<B> Level<B>::last_pressure(const FollowerLoad<B>& load, double time) const {
-  return {load.volume, volume_given(load, time), load.cavity->stiffness()};
-}
-
-template <class B>
-double Level<B>::volume_given(const FollowerLoad<B>& load, double time) const {
-  return load.cavity->goal(load_factor(load.course, time)) - load.cavity->caps;
-}
-
-template <class B>
-std::vector<CavityState> Level<B>::cavities(double time) const {
-  std::vector<CavityState> all;
-  for (const FollowerLoad<B>& load : this->followers) {
-    if (!load.cavity) continue;
-    const double volume = enclosed_volume(load), lacking = volume_given(load, time) - volume;
-    all.push_back(
-        {load.cavity->load, volume + load.cavity->caps, load.cavity->stiffness() * lacking});
-  }
-  return all;
 }
 
 template <class B>
@@ -178,8 +109,7 @@ void Level<B>::count_contact(double time, const CarriedImpulse& of) {
 template <class B>
 void Level<B>::evaluate_without_contact(const State<B>& at, double time, const Vectors<B>& force) {
   element_force(at, time, force);
-  add_loads(time, force);
-  add_followers(at, time, force);
+  for (const auto& term : terms) term->add_force(exec(), at, time, force);
   if (external_) timed("external", [&] { ask_caller(at, time, 0, 0, force); });
   add_correction(force);
 }
@@ -188,7 +118,8 @@ template <class B>
 void Level<B>::dead_loads(double time, const Vectors<B>& force) const {
   update_vertices<B>(exec(), "plica::weigh_vertices", this->model.vertices,
                      WeighVertices<B>{this->model.mass, gravity_, force});
-  add_loads(time, force);
+  for (const auto& term : terms)
+    if (term->stiffness() == TermStiffness::none) term->add_force(exec(), this->state, time, force);
   add_correction(force);
 }
 
@@ -198,8 +129,7 @@ void Level<B>::linearise(const State<B>& at, double time, const ImplicitWeights&
   element_force(at, time + ahead, force);
   if (this->nodal.gradient.extent(0) > 0)
     keep_gradients<B>(exec(), *this, at.u), linearised_ = at.u;
-  add_loads(time + ahead, force);
-  add_followers(at, time + ahead, force);
+  for (const auto& term : terms) term->add_force(exec(), at, time + ahead, force);
   if (external_) timed("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
   add_correction(force);
 }
@@ -258,13 +188,18 @@ void Level<B>::product(const State<B>& at, const Vectors<B>& p, const ImplicitWe
   tangent(at, p, weights.b / weights.a, projected);
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
-  add_follower_product(at, p, weights.a, projected, q);
+  for (const auto& term : terms)
+    if (term->stiffness() == TermStiffness::unassembled)
+      term->add_product(exec, at, p, weights.a, projected, q);
   add_product_beside_elements(p, weights, q);
 }
 
 template <class B>
 void Level<B>::add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
                                            const Vectors<B>& q) const {
+  for (const auto& term : terms)
+    if (term->stiffness() == TermStiffness::assembled)
+      term->add_product(exec(), this->state, p, weights.a, false, q);
   if (contact_) response_.add_product(exec(), *this, p, false, q);
   if (external_)
     update_vertices<B>(
@@ -284,6 +219,7 @@ void Level<B>::diagonal(const State<B>& at, const ImplicitWeights& weights, bool
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }
+  for (const auto& term : terms) term->add_diagonal(exec, at, weights.a, blocks);
   if (external_) add<B>(exec, "plica::external_diagonal", a, external_stiffness_, blocks);
 }
 
@@ -293,6 +229,7 @@ void Level<B>::assemble(const State<B>& at, const ImplicitWeights& weights, bool
                         const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
   elasticity_->blocks(exec, this->model, pairs, at.u, weights, projected, shares, A);
+  for (const auto& term : terms) term->add_blocks(exec, at, weights.a, A);
   if (contact_) response_.add_matrix(exec, *this, 1, A);
   if (external_)
     update_vertices<B>(

@@ -9,7 +9,7 @@
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <plica/drivers/elastic/viscosity.hpp>
 #include <plica/drivers/loads/external_forces.hpp>
-#include <plica/kernels/loads/follower_pressure.hpp>
+#include <plica/drivers/loads/force_term.hpp>
 
 namespace plica {
 
@@ -34,6 +34,7 @@ class Level : public LevelData<B> {
   void set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                   std::shared_ptr<const Contact<B>> contact, bool implicit);
 
+  std::vector<std::unique_ptr<ForceTerm<B>>> terms;  ///< see make_force_terms()
   std::unique_ptr<Integrator<B>> integrator;
   std::unique_ptr<Viscosity<B>> viscosity;  ///< only with viscous materials
   double share = 1;                         ///< part of the macro step, from 0 to 1
@@ -65,15 +66,19 @@ class Level : public LevelData<B> {
 
   /// Returns volumes and pressures of the level's cavities at its state. Waits.
   std::vector<CavityState> cavities(double time) const;
-  /// Returns the energy of the pressures that follow the body, at the level's state [J]. Their
-  /// forces are its negative derivative. Only pressures whose triangles enclose a volume count;
-  /// waits where there are some.
-  double follower_energy(double time) const;
-  /// Adds scale K p to q, with K the stiffness of the pressures that follow the body. K is its
-  /// symmetric part, at the state and time of the last evaluation; with `projected`, that of the
-  /// fluids alone.
-  void add_follower_product(const State<B>& state, const Vectors<B>& p, double scale,
-                            bool projected, const Vectors<B>& q) const;
+  /// Returns the energy of the terms at the level's state [J]. Waits where a term has one.
+  double term_energy(double time) const;
+  /// Adds scale K p to q, with K the stiffness of the terms at the state and time of the last
+  /// evaluation; `projected`: see ForceTerm::add_product().
+  void add_term_product(const State<B>& state, const Vectors<B>& p, double scale, bool projected,
+                        const Vectors<B>& q) const;
+  /// Returns whether a term has that kind of stiffness, or any stiffness.
+  bool has_terms(TermStiffness kind) const;
+  bool has_stiff_terms() const {
+    return has_terms(TermStiffness::assembled) || has_terms(TermStiffness::unassembled);
+  }
+  /// Returns an upper bound of what the terms add to the squared frequencies at rest [1/s^2].
+  double term_frequency() const;
 
   /// Computes f = the forces that do not depend on the state: gravity, loads, a correction.
   void dead_loads(double time, const Vectors<B>& f) const;
@@ -90,7 +95,9 @@ class Level : public LevelData<B> {
   void add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
                                    const Vectors<B>& q) const;
   /// Returns whether contact or a caller's forces act on the level.
-  bool acts_beside_elements() const { return contact_ || external_; }
+  bool acts_beside_elements() const {
+    return contact_ || external_ || has_terms(TermStiffness::assembled);
+  }
   /// Adds to q what assemble() leaves out of A p: pressures that follow the body, and contact that
   /// couples several tetrahedra.
   void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p,
@@ -98,7 +105,7 @@ class Level : public LevelData<B> {
                                  const Vectors<B>& q) const;
   /// Returns whether assemble() leaves nothing out of A.
   bool is_all_in_matrix() const {
-    return this->followers.empty() && !(contact_ && contact_->couples());
+    return !has_terms(TermStiffness::unassembled) && !(contact_ && contact_->couples());
   }
   /// Computes A's vertex blocks without those of contact, [vertices][6] xx yy zz xy xz yz; see
   /// Elasticity::diagonal.
@@ -166,10 +173,7 @@ class Level : public LevelData<B> {
   Blocks<B> external_stiffness_;  ///< only on implicit levels
   long evaluations_ = 0;
   int evaluation_ = 0;
-  BlockSums<B> volumes_;      ///< sums over blocks, for the volumes of cavities
-  Doubles<B> rate_;           ///< [1] rate of a cavity's volume
-  double follower_time_ = 0;  ///< time at which pressures were last asked for [s]
-  Vectors<B> linearised_;     ///< displacements whose gradients are kept
+  Vectors<B> linearised_;  ///< displacements whose gradients are kept
 
   void element_force(const State<B>& state, double time, const Vectors<B>& f);
   /// Returns the displacements from which tangents are computed: none where gradients of them are
@@ -179,18 +183,6 @@ class Level : public LevelData<B> {
   }
   void ask_caller(const State<B>& state, double time, double step, double ahead,
                   const Vectors<B>& f);
-  void add_loads(double time, const Vectors<B>& f) const;
-  /// Adds the pressures that follow the state.
-  void add_followers(const State<B>& state, double time, const Vectors<B>& f);
-  GivenPressure<B> given_pressure(const FollowerLoad<B>& load, double time) const;
-  void measure(const FollowerLoad<B>& load, const Vectors<B>& u) const;
-  /// Returns the volume that a load's triangles enclose at the level's state, up to a constant
-  /// [m^3].
-  double enclosed_volume(const FollowerLoad<B>& load) const;
-  /// Returns the pressure of the fluid at the volume that was last measured.
-  FluidPressure<B> last_pressure(const FollowerLoad<B>& load, double time) const;
-  /// Returns the given volume of a cavity, less that of its caps [m^3].
-  double volume_given(const FollowerLoad<B>& load, double time) const;
 };
 
 }  // namespace plica

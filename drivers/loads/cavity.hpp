@@ -25,10 +25,4 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
                    const std::vector<std::array<int, 3>>& triangles, const std::vector<char>& still,
                    const Selecting& who);
 
-/// Returns an upper bound of what the fluids in a level's cavities add to its squared frequencies
-/// [1/s^2]. The stiffness of one fluid is K a a^T / V with a = dV/dx. a is as large as areas: those
-/// at rest, grown to `ratio` alike in all directions where that is above 1.
-template <class B>
-double cavity_eigenvalue(const LevelData<B>& level);
-
 }  // namespace plica

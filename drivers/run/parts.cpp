@@ -148,9 +148,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for",
       sum([](const L& l) {
         std::size_t total = 0;
-        for (const auto& load : l.loads) total += bytes(load.vertex, load.force);
-        for (const auto& load : l.followers)
-          total += bytes(load.vertex, load.rest, load.first, load.second, load.third);
+        for (const auto& term : l.terms) total += term->bytes();
         return total;
       }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,

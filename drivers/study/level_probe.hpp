@@ -66,7 +66,7 @@ class LevelProbe {
   std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
     std::vector<Point> q = stiffness(u, p);
     const Vectors<B> added = device_field<B>(zero());
-    at(0).add_follower_product(state(u, p), device_field<B>(p), 1, false, added);
+    at(0).add_term_product(state(u, p), device_field<B>(p), 1, false, added);
     const auto follower = to_host<B>(built.hierarchy->exec(), added);
     for (std::size_t a = 0; a < q.size(); ++a) q[a] += follower[a];
     return q;

@@ -168,7 +168,7 @@ class StageSolver {
 
   /// Returns whether a system has only inertia and the elements' stiffness.
   static bool is_stiffness_alone(const Level<B>& level) {
-    return !level.contact() && level.followers.empty() && !level.viscosity &&
+    return !level.contact() && !level.has_stiff_terms() && !level.viscosity &&
            level.model.patches.damping.extent(0) == 0;
   }
 
@@ -177,8 +177,8 @@ class StageSolver {
     level.linearise(level.state, time, weights, ahead, level.f);
     const double tolerance = options_.relative_residual;
     SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
-    if (out.indefinite && options_.tangent == "auto" && !level.followers.empty() &&
-        level.prescribed.count == 0) {
+    if (out.indefinite && options_.tangent == "auto" &&
+        level.has_terms(TermStiffness::unassembled) && level.prescribed.count == 0) {
       undo(level, weights, 1);  // pressures that follow the body made the system indefinite
       if (!out.converged) --misses_;
       out = correct(level, weights, false, true, tolerance);
@@ -206,9 +206,9 @@ class StageSolver {
         by_product = solver_->multiply(level.exec(), gap, right_side_);
     });
     if (from_start && !by_product) {
-      if (!level.followers.empty()) {
+      if (level.has_stiff_terms()) {
         copy(level.exec(), right_side_, force);
-        level.add_follower_product(level.state, gap, -1, projected, right_side_);
+        level.add_term_product(level.state, gap, -1, projected, right_side_);
         force = right_side_;
       }
       level.tangent(level.state, gap, 0, projected);
@@ -457,7 +457,7 @@ class StageSolver {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
                  FirstComponent<B>{level.partial}, blocks_, result_);
-    return read(level.exec())[0] + level.follower_energy(end);
+    return read(level.exec())[0] + level.term_energy(end);
   }
 };
 
