@@ -22,7 +22,7 @@ namespace {
 template <class B>
 struct BentBeam {
   typename B::Exec exec;
-  Level<B> level;
+  LevelData<B> level;
   Vectors<B> direction;
   std::unique_ptr<Elasticity<B>> elasticity;
 

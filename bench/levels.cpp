@@ -78,8 +78,8 @@ void transfer(benchmark::State& state, bool down) {
     problem.integration.cycle = "rsv";
     return built<B>(problem);
   });
-  const Level<B>&fine = (*b.hierarchy)[0], &coarse = (*b.hierarchy)[1];
-  const Level<B>&from = down ? fine : coarse, &to = down ? coarse : fine;
+  const LevelData<B>&fine = (*b.hierarchy)[0], &coarse = (*b.hierarchy)[1];
+  const LevelData<B>&from = down ? fine : coarse, &to = down ? coarse : fine;
   const Transfer<B>& rows = down ? coarse.from_finer : coarse.to_finer;
   const double s = sizeof(Real),
                bytes = rows.rows * (4 + 16 + 4 * s + 13 * s) + from.model.vertices * 12 * s;
@@ -97,7 +97,7 @@ template <class Real>
 void contact(benchmark::State& state, const std::string& name, Problem (*scene)()) {
   using B = Backend<Real, Exec>;
   auto& b = fixture<BuiltHierarchy<B>>("contact " + name, [&] { return built<B>(scene()); });
-  SolverLevel<B>& h = (*b.hierarchy)[0];
+  Level<B>& h = (*b.hierarchy)[0];
   const auto& surface = h.surface;
   const double s = sizeof(Real), points = surface.points;
   const double bytes = points * (3 * s + 2 * (16 + 4 * s)) + surface.touched * (8 + 12 * s);

@@ -66,14 +66,14 @@ struct LinearSystem {
     right_side = to_field<B>(bent(built.meshes.front(), 0.1 / c.cells[0]));
     r = Vectors<B>("bench::r", right_side.extent(0)),
     x = Vectors<B>("bench::x", right_side.extent(0));
-    SolverLevel<B>& h = level();
+    Level<B>& h = level();
     h.linearise(h.state, 0, weights, implicit_step, h.f);
     prepare();
   }
-  SolverLevel<B>& level() { return (*built.hierarchy)[0]; }
+  Level<B>& level() { return (*built.hierarchy)[0]; }
   int vertices() { return level().model.vertices; }
   void prepare() {
-    SolverLevel<B>& h = level();
+    Level<B>& h = level();
     system.prepare(h, h.state, weights, false);
   }
 };

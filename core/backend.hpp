@@ -103,7 +103,7 @@ template <class Real, class Member>
 KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::size_t count) {
   Real* const memory =
       static_cast<Real*>(team.team_scratch(level).get_shmem_aligned(count * sizeof(Real), 64));
-  like_device::spoil(team, memory, count);
+  like_device::poison(team, memory, count);
   return memory;
 }
 

@@ -8,7 +8,7 @@ namespace plica {
 
 namespace {
 
-std::string placed(const std::string& message, const Where& where) {
+std::string placed(const std::string& message, const SourceLocation& where) {
   if (where.file.empty()) return message;
   return where.file + (where.line > 0 ? ":" + std::to_string(where.line) : "") + ": " + message;
 }
@@ -34,7 +34,7 @@ std::size_t difference(std::size_t a, std::size_t b) { return a > b ? a - b : b 
 
 }  // namespace
 
-InputError::InputError(const std::string& message, const Where& where)
+InputError::InputError(const std::string& message, const SourceLocation& where)
     : std::runtime_error(placed(message, where)) {}
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& choices) {

@@ -8,7 +8,7 @@
 namespace plica {
 
 /// Place in an input file. Without a file the input came through the interface.
-struct Where {
+struct SourceLocation {
   std::string file;  ///< name as the user gave it
   int line = 0;      ///< counts from 1; 0: unknown
 };
@@ -17,7 +17,7 @@ struct Where {
 class InputError : public std::runtime_error {
  public:
   /// Makes an exception of `message`, with the place before it where there is one.
-  explicit InputError(const std::string& message, const Where& where = {});
+  explicit InputError(const std::string& message, const SourceLocation& where = {});
 };
 
 /// Returns the entry of `choices` with the smallest edit distance to `word`. It is empty when none

@@ -18,17 +18,17 @@ struct MassLevel {
   SparseRows<B, float> down;  ///< P^T
   /// M = P^T (the finer level's M) P, main entries only; empty on the coarsest level
   SparseRows<B, float> mass;
-  /// Pi^T E^T: momentum on this level per momentum on u_C, see CoarseAxes; empty on the coarsest
+  /// Pi^T E^T: momentum on this level per momentum on u_C, see FrameFields; empty on the coarsest
   /// level
   SparseRows<B, float> share;
   Vectors<B> force;         ///< force, restricted to this level
   Vectors<B> acceleration;  ///< acceleration by this level and those below it
 };
 
-/// Response of the coarsest level to forces: the modes of its own linear problem. They are in axes
-/// that turn with the body.
+/// Response of the coarsest level to forces: the modes of its own linear problem. They are in
+/// frames that turn with the body.
 template <class B>
-struct CoarseFilter {
+struct CoarseInverseMass {
   static constexpr int group = 16;         ///< number of vertices whose rows lie together
   static constexpr int block = 3 * group;  ///< number of rows of such a group
   int vertices = 0;
@@ -43,7 +43,7 @@ struct CoarseFilter {
 /// nearest to G, and g the force on u_C. Dense matrices lie as [groups of
 /// vertices][columns][group], see dense_rows().
 template <class B>
-struct CoarseAxes {
+struct FrameFields {
   template <class Number>
   using Dense = Kokkos::View<Number*, typename B::Memory>;
 
@@ -54,14 +54,14 @@ struct CoarseAxes {
   Dense<typename B::Real> force_of;
   /// Pi^T E^T force_of, from torques to what they add to the coarse momentum per second
   Dense<float> response;
-  /// Factor of the unit matrix in G at rest: 1, or 0 where the axes do not turn
+  /// Factor of the unit matrix in G at rest: 1, or 0 where the frames do not turn
   Scalars<B> at_rest;
   Vectors<B> displacement;  ///< u_C [m]
   /// Sum of the squares of the angles of a turn, per work item [rad^2]
   Doubles<B> angles;
   /// (tr U 1 - U)^-1, U = R^T G, [3 vertices][3]; 0 where R is not the nearest rotation
   Vectors<B> stiffness;
-  /// Torque on the axes of each vertex, a 3x3 matrix column by column, [3 vertices][3]
+  /// Torque on the frames of each vertex, a 3x3 matrix column by column, [3 vertices][3]
   Vectors<B> torque;
   Vectors<B> force;  ///< g [N]
 };

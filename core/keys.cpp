@@ -76,7 +76,7 @@ std::string with_unit(const std::string& text, const Dimension& dimension) {
 void check_number(const std::string& path, double value, const Quantity& kind,
                   const std::string& expected) {
   if (!kind.range.contains(value))
-    refuse(path, kind.shown(value, 9), expected + (std::isfinite(value) ? "" : ", finite"));
+    refuse(path, kind.to_text(value, 9), expected + (std::isfinite(value) ? "" : ", finite"));
 }
 
 }  // namespace
@@ -119,55 +119,56 @@ std::string Bounds::text(const std::string& unit) const {
   return {};
 }
 
-std::string Quantity::expects() const { return name_of(dimension) + in_words(dimension, range); }
-std::string Quantity::shown(double value, int digits) const {
+std::string Quantity::type_text() const { return name_of(dimension) + in_words(dimension, range); }
+std::string Quantity::to_text(double value, int digits) const {
   return with_unit(number(value, digits), dimension);
 }
 void Quantity::check(const std::string& path, double value) const {
-  check_number(path, value, *this, expects());
+  check_number(path, value, *this, type_text());
 }
 
 void AutoQuantity::check(const std::string& path, const std::optional<double>& value) const {
-  if (value) check_number(path, *value, quantity, expects());
+  if (value) check_number(path, *value, quantity, type_text());
 }
 
-std::string Vector::expects() const {
+std::string Vector::type_text() const {
   return "a list of 3 " + plural_of(dimension) + in_words(dimension, range);
 }
 
-std::string Vector::shown(const Point& value) const {
+std::string Vector::to_text(const Point& value) const {
   return with_unit(
       "[" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + "]",
       dimension);
 }
 
 void Vector::check(const std::string& path, const Point& value) const {
-  for (const double component : value) check_number(path, component, {dimension, range}, expects());
+  for (const double component : value)
+    check_number(path, component, {dimension, range}, type_text());
 }
 
 void Direction::check(const std::string& path, const Point& value) const {
   Vector{plain}.check(path, value);
-  if (value.isZero(0)) refuse(path, shown(value), "a direction");
+  if (value.isZero(0)) refuse(path, to_text(value), "a direction");
 }
 
-std::string Count::expects() const {
+std::string Count::type_text() const {
   if (max == std::numeric_limits<int>::max()) return "a whole number >= " + std::to_string(min);
   return "a whole number in [" + std::to_string(min) + ", " + std::to_string(max) + "]";
 }
 
 void Count::check(const std::string& path, int value) const {
-  if (value < min || value > max) refuse(path, shown(value), expects());
+  if (value < min || value > max) refuse(path, to_text(value), type_text());
 }
 
 void AutoCount::check(const std::string& path, int value) const {
-  if (value != automatic && (value < min || value > max)) refuse(path, shown(value), expects());
+  if (value != automatic && (value < min || value > max)) refuse(path, to_text(value), type_text());
 }
 
-std::string Counts::shown(const std::array<int, 3>& value) const {
+std::string Counts::to_text(const std::array<int, 3>& value) const {
   return listed({std::to_string(value[0]), std::to_string(value[1]), std::to_string(value[2])});
 }
 
-std::string Name::expects() const { return joined(names(choices()), " | "); }
+std::string Name::type_text() const { return joined(names(choices()), " | "); }
 
 void Name::check(const std::string& path, const std::string& value) const {
   const std::vector<std::string> known = names(choices());
@@ -175,7 +176,7 @@ void Name::check(const std::string& path, const std::string& value) const {
     throw InputError(path + ": " + unknown_name(family, value, known));
 }
 
-std::string NamePerLevel::shown(const std::vector<std::string>& value) const {
+std::string NamePerLevel::to_text(const std::vector<std::string>& value) const {
   return listed(value);
 }
 
@@ -183,15 +184,15 @@ void NamePerLevel::check(const std::string& path, const std::vector<std::string>
   for (const std::string& one : value) name.check(path, one);
 }
 
-std::string AutoCountPerLevel::shown(const std::vector<int>& value) const {
+std::string AutoCountPerLevel::to_text(const std::vector<int>& value) const {
   std::vector<std::string> words;
-  for (const int count : value) words.push_back(AutoCount{}.shown(count));
+  for (const int count : value) words.push_back(AutoCount{}.to_text(count));
   return listed(words);
 }
 
 void AutoCountPerLevel::check(const std::string& path, const std::vector<int>& value) const {
   for (const int count : value)
-    if (count < 0) refuse(path, std::to_string(count), expects());
+    if (count < 0) refuse(path, std::to_string(count), type_text());
 }
 
 void Shares::check(const std::string& path, const Target& value) const {

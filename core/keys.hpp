@@ -102,17 +102,17 @@ inline constexpr Bounds inside_zero_one{
 struct Quantity {
   Dimension dimension;
   Bounds range = any_value;
-  std::string expects() const;
-  std::string shown(double value, int digits = 6) const;
+  std::string type_text() const;
+  std::string to_text(double value, int digits = 6) const;
   void check(const std::string& path, double value) const;
 };
 
 /// A quantity or `auto`, which is no value.
 struct AutoQuantity {
   Quantity quantity;
-  std::string expects() const { return quantity.expects() + ", or auto"; }
-  std::string shown(const std::optional<double>& value) const {
-    return value ? quantity.shown(*value) : "auto";
+  std::string type_text() const { return quantity.type_text() + ", or auto"; }
+  std::string to_text(const std::optional<double>& value) const {
+    return value ? quantity.to_text(*value) : "auto";
   }
   void check(const std::string& path, const std::optional<double>& value) const;
 };
@@ -121,15 +121,15 @@ struct AutoQuantity {
 struct Vector {
   Dimension dimension;
   Bounds range = any_value;
-  std::string expects() const;
-  std::string shown(const Point& value) const;
+  std::string type_text() const;
+  std::string to_text(const Point& value) const;
   void check(const std::string& path, const Point& value) const;
 };
 
 /// Three numbers that give a direction: their length is above 0 and does not matter otherwise.
 struct Direction {
-  std::string expects() const { return Vector{plain}.expects(); }
-  std::string shown(const Point& value) const { return Vector{plain}.shown(value); }
+  std::string type_text() const { return Vector{plain}.type_text(); }
+  std::string to_text(const Point& value) const { return Vector{plain}.to_text(value); }
   void check(const std::string& path, const Point& value) const;
 };
 
@@ -137,8 +137,8 @@ struct Direction {
 struct Count {
   int min = 0;
   int max = std::numeric_limits<int>::max();
-  std::string expects() const;
-  std::string shown(int value) const { return std::to_string(value); }
+  std::string type_text() const;
+  std::string to_text(int value) const { return std::to_string(value); }
   void check(const std::string& path, int value) const;
 };
 
@@ -147,29 +147,31 @@ struct AutoCount {
   int min = 1;
   int max = std::numeric_limits<int>::max();
   int automatic = 0;
-  std::string expects() const { return Count{min, max}.expects() + ", or auto"; }
-  std::string shown(int value) const { return value == automatic ? "auto" : std::to_string(value); }
+  std::string type_text() const { return Count{min, max}.type_text() + ", or auto"; }
+  std::string to_text(int value) const {
+    return value == automatic ? "auto" : std::to_string(value);
+  }
   void check(const std::string& path, int value) const;
 };
 
 /// Three whole numbers.
 struct Counts {
   int min = 0;
-  std::string expects() const { return "a list of 3 whole numbers >= " + std::to_string(min); }
-  std::string shown(const std::array<int, 3>& value) const;
+  std::string type_text() const { return "a list of 3 whole numbers >= " + std::to_string(min); }
+  std::string to_text(const std::array<int, 3>& value) const;
 };
 
 /// true or false.
 struct Flag {
-  std::string expects() const { return "true or false"; }
-  std::string shown(bool value) const { return value ? "true" : "false"; }
+  std::string type_text() const { return "true or false"; }
+  std::string to_text(bool value) const { return value ? "true" : "false"; }
   void check(const std::string&, bool) const {}
 };
 
 /// Any words.
 struct Text {
-  std::string expects() const { return "text"; }
-  std::string shown(const std::string& value) const { return value; }
+  std::string type_text() const { return "text"; }
+  std::string to_text(const std::string& value) const { return value; }
   void check(const std::string&, const std::string&) const {}
 };
 
@@ -177,17 +179,17 @@ struct Text {
 struct Name {
   const char* family;                ///< "material"
   std::vector<Choice> (*choices)();  ///< names to choose from
-  std::string expects() const;
-  std::string shown(const std::string& value) const { return value; }
+  std::string type_text() const;
+  std::string to_text(const std::string& value) const { return value; }
   void check(const std::string& path, const std::string& value) const;
 };
 
 /// A name of tissues(), which stands for a whole material.
 struct TissueName {
   Name name{"tissue", tissues};
-  std::string expects() const { return name.expects(); }
+  std::string type_text() const { return name.type_text(); }
   template <class Material>
-  std::string shown(const Material& of) const {
+  std::string to_text(const Material& of) const {
     return of.tissue;
   }
   template <class Material>
@@ -197,9 +199,9 @@ struct TissueName {
 /// A name of presets(), which stands for options of a whole problem.
 struct PresetName {
   Name name{"preset", presets};
-  std::string expects() const { return name.expects(); }
+  std::string type_text() const { return name.type_text(); }
   template <class Problem>
-  std::string shown(const Problem& of) const {
+  std::string to_text(const Problem& of) const {
     return of.preset;
   }
   template <class Problem>
@@ -209,17 +211,19 @@ struct PresetName {
 /// One name for all levels, or one for each.
 struct NamePerLevel {
   Name name;
-  std::string expects() const { return name.expects() + "; or a list of them, finest level first"; }
-  std::string shown(const std::vector<std::string>& value) const;
+  std::string type_text() const {
+    return name.type_text() + "; or a list of them, finest level first";
+  }
+  std::string to_text(const std::vector<std::string>& value) const;
   void check(const std::string& path, const std::vector<std::string>& value) const;
 };
 
 /// One count for all levels, or one for each; `auto` is 0.
 struct AutoCountPerLevel {
-  std::string expects() const {
-    return AutoCount{}.expects() + "; or a list of them, finest level first";
+  std::string type_text() const {
+    return AutoCount{}.type_text() + "; or a list of them, finest level first";
   }
-  std::string shown(const std::vector<int>& value) const;
+  std::string to_text(const std::vector<int>& value) const;
   void check(const std::string& path, const std::vector<int>& value) const;
 };
 
@@ -231,10 +235,10 @@ struct Shares {
   };
   Name name;
   static constexpr Quantity share{plain, positive};
-  std::string expects() const {
-    return name.expects() + "; or a list of shares, finest level first";
+  std::string type_text() const {
+    return name.type_text() + "; or a list of shares, finest level first";
   }
-  std::string shown(const Target& value) const { return value.rule; }
+  std::string to_text(const Target& value) const { return value.rule; }
   void check(const std::string& path, const Target& value) const;
 };
 
@@ -242,11 +246,11 @@ struct Shares {
 template <class Kind>
 struct ListOf {
   Kind kind;
-  std::string expects() const { return kind.expects() + "; or a list of them"; }
+  std::string type_text() const { return kind.type_text() + "; or a list of them"; }
   template <class T>
-  std::string shown(const std::vector<T>& value) const {
+  std::string to_text(const std::vector<T>& value) const {
     std::string text;
-    for (const T& item : value) text += (text.empty() ? "" : ", ") + kind.shown(item);
+    for (const T& item : value) text += (text.empty() ? "" : ", ") + kind.to_text(item);
     return text;
   }
   template <class T>
@@ -261,9 +265,9 @@ struct Entry {
   const char* name;
   Quantity quantity;
   using Map = std::map<std::string, double>;
-  std::string expects() const { return quantity.expects(); }
-  std::string shown(const Map& values) const {
-    return values.contains(name) ? quantity.shown(values.at(name)) : "";
+  std::string type_text() const { return quantity.type_text(); }
+  std::string to_text(const Map& values) const {
+    return values.contains(name) ? quantity.to_text(values.at(name)) : "";
   }
   void check(const std::string& path, const Map& values) const {
     if (values.contains(name)) quantity.check(path, values.at(name));
@@ -296,7 +300,7 @@ template <auto Member, class Kind>
 struct As : MemberOf<Member> {
   Kind kind;
   explicit As(const Kind& of_member) : kind(of_member) {}
-  std::string expects() const { return kind.expects(); }
+  std::string type_text() const { return kind.type_text(); }
 };
 /// A list that stands for an alternative of a variant. `Member` is the list in that alternative.
 template <auto Member>

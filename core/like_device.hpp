@@ -52,7 +52,7 @@ Shuffled<Work> shuffled(int n, const Work& work) {
 
 /// Fills a team's memory with NaN, so that a test finds a read before the first write.
 template <class Member, class Real>
-void spoil(const Member& member, Real* memory, std::size_t count) {
+void poison(const Member& member, Real* memory, std::size_t count) {
   Kokkos::parallel_for(Kokkos::TeamThreadRange(member, count),
                        [&](std::size_t i) { memory[i] = Real(NAN); });
   member.team_barrier();
@@ -72,7 +72,7 @@ const Work& shuffled(int, const Work& work) {
   return work;
 }
 template <class Member, class Real>
-KOKKOS_INLINE_FUNCTION void spoil(const Member&, Real*, std::size_t) {}
+KOKKOS_INLINE_FUNCTION void poison(const Member&, Real*, std::size_t) {}
 
 #endif
 

@@ -54,7 +54,7 @@ struct NodalRows {
   Scalars<B> fibres;
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
   /// [regions] part of lambda that acts on smoothed volumes [Pa]; empty: none
-  Scalars<B> excess;
+  Scalars<B> bulk_excess;
   Scalars<B> damping;  ///< [regions] damping by stiffness [s]; empty: none
   VertexShares<B> shares;
 

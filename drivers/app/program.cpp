@@ -284,10 +284,10 @@ class CommandLine {
     info->add_flag("--json", mesh_.json, "print JSON, in SI units");
     info->add_option("--scale", mesh_.scale, "metres per unit of the file, such as 0.001");
     const auto add = [this, info](const std::string& option, const std::string& key,
-                                  const std::string& expects, const std::string& help) {
+                                  const std::string& type_text, const std::string& help) {
       info->add_option_function<std::string>(
           option, [this, key](const std::string& text) { mesh_.material[key] = text; },
-          help + ": " + expects);
+          help + ": " + type_text);
     };
     MaterialOptions material;
     OptionList list(add);

@@ -87,7 +87,7 @@ void Contact<B>::make_memory(const ContactOptions& options) {
   const bool tools = std::ranges::any_of(all, [](const auto& o) { return o.mass.has_value(); });
   const bool tear = std::ranges::any_of(options.attachments,
                                         [](const auto& a) { return a.strength.has_value(); });
-  if (tools) grasps_.first = ObstaclePlace<B>::numbers * static_cast<int>(all.size());
+  if (tools) grasps_.first = ObstaclePose<B>::numbers * static_cast<int>(all.size());
   if (std::ranges::any_of(all, [](const auto& o) { return o.grasp.has_value(); }))
     grasps_.places = static_cast<int>(all.size()) * points_;
   attached_.first = grasps_.at(grasps_.places);
@@ -95,7 +95,7 @@ void Contact<B>::make_memory(const ContactOptions& options) {
   for (std::size_t o = 0; tools && o < all.size(); ++o) {
     const Point turned = all[o].turn ? all[o].turn->rotation : Point(Point::Zero());
     const double half = turned.norm() / 2;
-    double* const attitude = &start[o * ObstaclePlace<B>::numbers + ObstaclePlace<B>::attitude];
+    double* const attitude = &start[o * ObstaclePose<B>::numbers + ObstaclePose<B>::attitude];
     attitude[0] = std::cos(half);
     for (int k = 0; k < 3; ++k)
       attitude[1 + k] = half > 0 ? std::sin(half) / (2 * half) * turned[k] : 0;
@@ -358,7 +358,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
 }
 
 template <class B>
-void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+void Contact<B>::find(const Exec& exec, const LevelData<B>& level, const State<B>& s, double time,
                       const ContactRecords<B>& records) const {
   for (std::size_t o = 0; o < obstacles_.size(); ++o)
     obstacles_[o]->find(exec, level.surface, s, time, static_cast<int>(o), whole_[o], records);
@@ -372,7 +372,7 @@ void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double e
 }
 
 template <class B>
-void Contact<B>::grasp(const Exec& exec, const Level<B>& level, double time, int obstacle,
+void Contact<B>::grasp(const Exec& exec, const LevelData<B>& level, double time, int obstacle,
                        const ContactRecords<B>& records) const {
   obstacles_[static_cast<std::size_t>(obstacle)]->grasp(
       exec, level.surface, level.state, time, obstacle, grasp_options(obstacle)->reach, records);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/contact/attachments.hpp>
 #include <plica/kernels/contact/contact_records.hpp>
-#include <plica/kernels/contact/obstacle_place.hpp>
+#include <plica/kernels/contact/obstacle_pose.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 
@@ -26,7 +26,7 @@ class Obstacle {
   virtual void grasp(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time,
                      int number, double reach, const ContactRecords<B>&) const = 0;
   /// Returns the obstacle's pose at `time` [s], with the mean velocity of the next `ahead` [s].
-  virtual ObstaclePlace<B> place(double time, double ahead) const = 0;
+  virtual ObstaclePose<B> place(double time, double ahead) const = 0;
   /// Replaces the motion, and set_turn() the turn, for all later calls.
   virtual void set_motion(const Motion& motion) = 0;
   virtual void set_turn(const std::optional<Turn>& turn) = 0;
@@ -84,7 +84,7 @@ class Contact {
   ContactRecords<B> make_records(const EmbeddedSurface<B>& surface, int vertices,
                                  bool implicit) const;
   /// Fills the records' slots of all obstacles at a state, for a step of the records' span.
-  void find(const Exec&, const Level<B>&, const State<B>&, double time,
+  void find(const Exec&, const LevelData<B>&, const State<B>&, double time,
             const ContactRecords<B>&) const;
 
   /// Returns a surface point that is lost, found since the last call; -1: none. Waits.
@@ -104,7 +104,7 @@ class Contact {
   int attached() const { return attached_count_; }  ///< points that are attached to another body
   const Attachments<B>& attached_points() const { return attached_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
-  ObstaclePlace<B> place(int obstacle, double time, double ahead = 0) const {
+  ObstaclePose<B> place(int obstacle, double time, double ahead = 0) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time, ahead);
   }
   /// Replaces the motion of an obstacle; work that is enqueued already keeps the earlier motion.
@@ -115,11 +115,11 @@ class Contact {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_turn(turn);
   }
   /// Returns the values that contact carries from one step to the next; empty: there are none.
-  /// In this order: poses of tools with mass (see ObstaclePlace), grasped points (see Grasps), torn
+  /// In this order: poses of tools with mass (see ObstaclePose), grasped points (see Grasps), torn
   /// points (see Attachments).
   const Doubles<B>& memory() const { return memory_; }
   /// Grasps the points near an obstacle in the state of level 0, whose records these are.
-  void grasp(const Exec&, const Level<B>&, double time, int obstacle,
+  void grasp(const Exec&, const LevelData<B>&, double time, int obstacle,
              const ContactRecords<B>&) const;
   void release(const Exec&, int obstacle) const;
   const std::optional<GraspOptions>& grasp_options(int obstacle) const {

@@ -25,7 +25,7 @@ ContactStep of_whole_step(const ContactStep& step, double part) {
 
 template <class B>
 ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
-                                    const Level<B>& level, bool implicit)
+                                    const LevelData<B>& level, bool implicit)
     : contact_(std::move(contact)),
       own_(contact_->make_records(level.surface, level.model.vertices, implicit)),
       records_(own_),
@@ -52,13 +52,13 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
 
 /// Finds and lists the records of a state, and stores that they belong to `time`.
 template <class B>
-void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state,
+void ContactResponse<B>::find(const Exec& exec, const LevelData<B>& level, const State<B>& state,
                               double time) {
   look(exec, level, state, time);
   found_ = time, fresh_ = false;
 }
 template <class B>
-void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const State<B>& state,
+void ContactResponse<B>::look(const Exec& exec, const LevelData<B>& level, const State<B>& state,
                               double time) const {
   reduce<B, 1, PlacePoints<B>, Sums<1, 1>>(exec, "plica::contact_places", records_.points,
                                            {level.surface, state, records_.places}, blocks_,
@@ -71,7 +71,7 @@ void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const Sta
 /// Returns the records for use at the level's state, and the time since they were found.
 /// Where no step has been taken yet, they are found first.
 template <class B>
-RecordLater<B> ContactResponse<B>::later(const Exec& exec, const Level<B>& level,
+RecordLater<B> ContactResponse<B>::later(const Exec& exec, const LevelData<B>& level,
                                          double time) const {
   if (fresh_) look(exec, level, level.state, time);
   const double since = fresh_ ? 0 : std::max(0.0, time - found_);
@@ -79,7 +79,7 @@ RecordLater<B> ContactResponse<B>::later(const Exec& exec, const Level<B>& level
 }
 
 template <class B>
-void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state,
+void ContactResponse<B>::solve(const Exec& exec, const LevelData<B>& level, const State<B>& state,
                                double time, const ContactStep& given, ExplicitContact<B> contact,
                                const Respond& respond, const std::function<void()>& free) {
   const ContactStep step = of_whole_step(given, part_);
@@ -114,7 +114,7 @@ void ContactResponse<B>::end(const Exec& exec, const char* label, const End& ker
 }
 
 template <class B>
-void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state,
+void ContactResponse<B>::resolve(const Exec& exec, const LevelData<B>& level, const State<B>& state,
                                  double time, const ContactStep& step, const Vectors<B>& free,
                                  const Vectors<B>& answer, const Respond& respond) {
   const bool before = std::exchange(records_.long_steps, true);
@@ -124,22 +124,24 @@ void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const 
 }
 
 template <class B>
-void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state,
-                                    double time, const ContactStep& given, const Vectors<B>& f) {
+void ContactResponse<B>::add_forces(const Exec& exec, const LevelData<B>& level,
+                                    const State<B>& state, double time, const ContactStep& given,
+                                    const Vectors<B>& f) {
   if (!(given.span > 0)) {
     look(exec, level, state, time);
     over_list<B>(exec, records_.list, "plica::contact_static", StaticContact<B>{records_});
     return scatter(exec, level, f);
   }
   const Real damped = static_cast<Real>(of_whole_step(given, part_).damped);
-  AnswerByMass<B> answer{level.surface, level.model, records_, answer_, damped, Bounding::all};
+  AnswerByMass<B> answer{level.surface, level.model, records_,
+                         answer_,       damped,      AbsoluteWeights::all};
   const DeviceList<B>& vertices = records_.transpose.vertices;
   solve(
       exec, level, state, time, given,
       {level.surface, records_, state.v, free_, answer_, 0, 0, true},
       [&] {
         over_list<B>(exec, vertices, "plica::contact_answer", answer, records_.touching);
-        answer.bounding = Bounding::none;
+        answer.absolute_weights = AbsoluteWeights::none;
       },
       [&] {
         over_list<B>(exec, vertices, "plica::contact_free",
@@ -155,13 +157,14 @@ void ContactResponse<B>::forget_impulse(const Exec& exec) const {
 }
 
 template <class B>
-void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state,
-                                     double time, double weight) const {
+void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level,
+                                     const State<B>& state, double time, double weight) const {
   add_impulse(exec, level, state, time, CarriedImpulse{weight});
 }
 template <class B>
-void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state,
-                                     double time, const CarriedImpulse& of) const {
+void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level,
+                                     const State<B>& state, double time,
+                                     const CarriedImpulse& of) const {
   const auto add = [&](int number, const auto& term) {
     reduce<B, 6, TermOfList<B, std::decay_t<decltype(term)>>>(
         exec, "plica::contact_wrench", records_.list.most, {records_.list.count.data(), term},
@@ -174,7 +177,7 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, co
 }
 
 template <class B>
-double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, double time) const {
+double ContactResponse<B>::energy(const Exec& exec, const LevelData<B>& level, double time) const {
   const RecordLater<B> at = later(exec, level, time);
   sum_list<B, 1>(exec, records_.list, "plica::contact_energy", ContactEnergy<B>{at}, blocks_,
                  sums_);
@@ -182,12 +185,12 @@ double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, doubl
 }
 
 template <class B>
-double ContactResponse<B>::energy_found(const Exec& exec, const Level<B>& level,
+double ContactResponse<B>::energy_found(const Exec& exec, const LevelData<B>& level,
                                         const State<B>& state, double time) {
   keep(exec, aside_);
   find(exec, level, state, time);
   const double found = energy(exec, level, time);
-  put_back(exec, level, aside_);
+  restore(exec, level, aside_);
   return found;
 }
 
@@ -209,7 +212,7 @@ std::vector<double> ContactResponse<B>::slipping(const Exec& exec) const {
 }
 
 template <class B>
-std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>& level,
+std::vector<double> ContactResponse<B>::depths(const Exec& exec, const LevelData<B>& level,
                                                double time) const {
   const RecordLater<B> at = later(exec, level, time);
   std::vector<double> all;
@@ -222,8 +225,9 @@ std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>&
 }
 
 template <class B>
-void ContactResponse<B>::begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state,
-                                     double time, const ContactStage& stage) {
+void ContactResponse<B>::begin_stage(const Exec& exec, const LevelData<B>& level,
+                                     const State<B>& state, double time,
+                                     const ContactStage& stage) {
   stage_ = stage;
   records_.span = static_cast<Real>(stage.span);
   find(exec, level, state, time);
@@ -233,7 +237,7 @@ void ContactResponse<B>::begin_stage(const Exec& exec, const Level<B>& level, co
 }
 
 template <class B>
-ImplicitContact<B> ContactResponse<B>::at(const Level<B>& level, const State<B>& state,
+ImplicitContact<B> ContactResponse<B>::at(const LevelData<B>& level, const State<B>& state,
                                           double ahead) const {
   return {level.surface,
           state,
@@ -250,7 +254,7 @@ ContactBalance ContactResponse<B>::read_balance(const Exec& exec) const {
 }
 
 template <class B>
-ContactBalance ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level,
+ContactBalance ContactResponse<B>::linearise(const Exec& exec, const LevelData<B>& level,
                                              const State<B>& state, const ImplicitWeights& w,
                                              double ahead, const Vectors<B>& f, bool secant) {
   const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
@@ -262,7 +266,7 @@ ContactBalance ContactResponse<B>::linearise(const Exec& exec, const Level<B>& l
 }
 
 template <class B>
-ContactBalance ContactResponse<B>::balance(const Exec& exec, const Level<B>& level,
+ContactBalance ContactResponse<B>::balance(const Exec& exec, const LevelData<B>& level,
                                            const State<B>& state) {
   sum_list<B, 3>(exec, records_.list, "plica::contact_balance",
                  LineariseContact<B>{at(level, state, 0), 0, false}, blocks_, sums_);
@@ -270,20 +274,20 @@ ContactBalance ContactResponse<B>::balance(const Exec& exec, const Level<B>& lev
 }
 
 template <class B>
-void ContactResponse<B>::update_caps(const Exec& exec, const Level<B>& level,
+void ContactResponse<B>::update_caps(const Exec& exec, const LevelData<B>& level,
                                      const State<B>& state) const {
   over_list<B>(exec, records_.list, "plica::contact_caps", UpdateCaps<B>{at(level, state, 0)});
 }
 
 template <class B>
-void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level,
+void ContactResponse<B>::end_stage(const Exec& exec, const LevelData<B>& level,
                                    const State<B>& state) const {
   end(exec, "plica::contact_end", EndContact<B>{at(level, state, 0)});
 }
 
 /// Adds the last forces to the vertices: f += factor W^T F.
 template <class B>
-void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
+void ContactResponse<B>::scatter(const Exec& exec, const LevelData<B>& level, const Vectors<B>& f,
                                  double factor) const {
   over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
                ScatterContact<B>{.surface = level.surface,
@@ -293,8 +297,8 @@ void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const 
 }
 
 template <class B>
-void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p,
-                                     bool beside, const Vectors<B>& q) const {
+void ContactResponse<B>::add_product(const Exec& exec, const LevelData<B>& level,
+                                     const Vectors<B>& p, bool beside, const Vectors<B>& q) const {
   if (beside && !contact_->couples()) return;
   over_list<B>(exec, records_.list, "plica::contact_product",
                ContactProduct<B>{level.surface, p, records_, product_, beside});
@@ -305,7 +309,7 @@ void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, co
 }
 
 template <class B>
-void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
+void ContactResponse<B>::add_diagonal(const Exec& exec, const LevelData<B>& level, bool beside,
                                       const Blocks<B>& diagonal) const {
   if (beside && !contact_->couples()) return;
   over_list<B>(exec, records_.transpose.vertices, "plica::contact_diagonal",
@@ -313,7 +317,7 @@ void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, b
 }
 
 template <class B>
-void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, double scale,
+void ContactResponse<B>::add_matrix(const Exec& exec, const LevelData<B>& level, double scale,
                                     const BlockMatrix<B>& A) const {
   over_list<B>(exec, records_.transpose.vertices, "plica::contact_matrix",
                AddContactToMatrix<B>{level.surface, records_, static_cast<Real>(scale), A});
@@ -347,7 +351,7 @@ void ContactResponse<B>::each_carried(const Use& use) const {
 }
 
 template <class B>
-void ContactResponse<B>::forget(const Exec& exec) {
+void ContactResponse<B>::reset_history(const Exec& exec) {
   fill(exec, records_.near, 0), fill(exec, records_.list.count, 0.0),
       fill(exec, records_.touching, 0.0);
   fill(exec, records_.transpose.vertices.count, 0.0);
@@ -357,7 +361,7 @@ void ContactResponse<B>::forget(const Exec& exec) {
 }
 
 template <class B>
-void ContactResponse<B>::persist(StateArchive<B>& archive, const std::string& name) {
+void ContactResponse<B>::persist(Archive<B>& archive, const std::string& name) {
   archive.number(found_), archive.number(fresh_), archive.number(records_.span);
   each_carried([&](const char* what, const auto& field) {
     archive.field(name + "contact: " + what, field);
@@ -370,7 +374,7 @@ void ContactResponse<B>::persist(StateArchive<B>& archive, const std::string& na
 }
 
 template <class B>
-void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
+void ContactResponse<B>::keep(const Exec& exec, Snapshot& to) const {
   std::size_t i = 0, k = 0;
   each_carried([&](const char*, const auto& field) {
     using Field = std::decay_t<decltype(field)>;
@@ -391,7 +395,8 @@ void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
 }
 
 template <class B>
-void ContactResponse<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
+void ContactResponse<B>::restore(const Exec& exec, const LevelData<B>& level,
+                                 const Snapshot& from) {
   std::size_t i = 0, k = 0;
   each_carried([&](const char*, const auto& field) {
     using Field = std::decay_t<decltype(field)>;

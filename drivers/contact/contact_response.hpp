@@ -3,9 +3,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <plica/core/archive.hpp>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/matrices.hpp>
-#include <plica/core/state_archive.hpp>
 #include <plica/drivers/contact/contact.hpp>
 #include <plica/kernels/contact/contact_list.hpp>
 
@@ -48,17 +48,18 @@ class ContactResponse {
   using Respond = std::function<void()>;
 
   ContactResponse() = default;
-  ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit);
+  ContactResponse(std::shared_ptr<const Contact<B>> contact, const LevelData<B>& level,
+                  bool implicit);
 
   /// Adds contact's forces on a state at `time` [s] to f, which has all other forces [N].
   /// The inverse mass A is that of lumped masses. A step of span 0: contact of a state at rest.
-  void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void add_forces(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                   const ContactStep& step, const Vectors<B>& f);
   /// Finds the forces of the records for any other inverse mass A.
   /// `free`: accelerations without contact [m/s^2]. respond() fills `answer`, the accelerations by
   /// the records' last forces [m/s^2]. On its first call these are unit forces, for which absolute
   /// weights bound the sum.
-  void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void resolve(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                const ContactStep& step, const Vectors<B>& free, const Vectors<B>& answer,
                const Respond& respond);
 
@@ -70,83 +71,84 @@ class ContactResponse {
   /// Sets the impulses of all obstacles and bodies to 0.
   void forget_impulse(const Exec& exec) const;
   /// Adds the last forces times `weight` [s] to the impulse of each obstacle and body.
-  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void add_impulse(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                    double weight) const;
   /// Adds the last forces to the impulses, for a method that carries forces from step to step.
-  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void add_impulse(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                    const CarriedImpulse& of) const;
   /// Returns the impulses and angular impulses: [6 obstacles, then 6 bodies] N s and N m s.
   const Doubles<B>& impulse() const { return impulse_; }
   /// Returns the energy stored in all contact of the level's state [J]. Waits.
-  double energy(const Exec& exec, const Level<B>& level, double time) const;
+  double energy(const Exec& exec, const LevelData<B>& level, double time) const;
   /// Returns the work of friction in all steps so far [J]. Waits.
   double friction_work(const Exec& exec) const;
   /// Returns for each obstacle which part of its touching records slips, 0 to 1. Waits.
   std::vector<double> slipping(const Exec& exec) const;
   /// Returns the largest depth in each obstacle, then in pairs [m]. Waits.
   /// See Simulation::contact_depths().
-  std::vector<double> depths(const Exec& exec, const Level<B>& level, double time) const;
+  std::vector<double> depths(const Exec& exec, const LevelData<B>& level, double time) const;
   /// Grasps the points near an obstacle.
-  void grasp(const Exec& exec, const Level<B>& level, double time, int obstacle) const {
+  void grasp(const Exec& exec, const LevelData<B>& level, double time, int obstacle) const {
     contact_->grasp(exec, level, time, obstacle, records_);
   }
 
   // For implicit levels only, see kernels/contact/implicit_contact.hpp:
 
   /// Finds the records of a step from a state at `time`.
-  void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void begin_stage(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                    const ContactStage&);
   /// Adds the records' forces to f and makes their blocks for a system of these weights. Waits.
   /// The way of a record is taken `ahead` [s] of the state, with its velocities. `secant`: see
   /// LineariseContact.
-  ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state,
+  ContactBalance linearise(const Exec& exec, const LevelData<B>& level, const State<B>& state,
                            const ImplicitWeights&, double ahead, const Vectors<B>& f,
                            bool secant = false);
   /// Returns the sums over contact's forces at a state; the caps of friction stay. Waits.
-  ContactBalance balance(const Exec& exec, const Level<B>& level, const State<B>& state);
+  ContactBalance balance(const Exec& exec, const LevelData<B>& level, const State<B>& state);
   /// Sets the caps of friction to mu times the normal forces at a state.
-  void update_caps(const Exec& exec, const Level<B>& level, const State<B>& state) const;
+  void update_caps(const Exec& exec, const LevelData<B>& level, const State<B>& state) const;
   /// Ends the step in a state: stores the forces there as the last ones, and the carried stretches.
-  void end_stage(const Exec& exec, const Level<B>& level, const State<B>& state) const;
+  void end_stage(const Exec& exec, const LevelData<B>& level, const State<B>& state) const;
   /// Adds the last forces to the vertices: f += W^T F, times the stage's factor.
-  void add_last_forces(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const {
+  void add_last_forces(const Exec& exec, const LevelData<B>& level, const Vectors<B>& f) const {
     scatter(exec, level, f, stage_.factor);
   }
   const ContactStage& stage() const { return stage_; }
   /// Returns the energy in the contact that a step from a state at `time` would start with [J].
   /// The records stay those of the last step. Waits.
-  double energy_found(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
+  double energy_found(const Exec& exec, const LevelData<B>& level, const State<B>& state,
+                      double time);
   /// Adds a product: q += W^T C W p. `beside`: only of records that add_matrix() leaves out.
-  void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
+  void add_product(const Exec& exec, const LevelData<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
   /// Adds the vertex blocks of W^T C W. `beside`: only of records that add_matrix() leaves out.
-  void add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
+  void add_diagonal(const Exec& exec, const LevelData<B>& level, bool beside,
                     const Blocks<B>& diagonal) const;
   /// Adds to a matrix: A += scale W^T C W, of points that touch obstacles.
-  void add_matrix(const Exec& exec, const Level<B>& level, double scale,
+  void add_matrix(const Exec& exec, const LevelData<B>& level, double scale,
                   const BlockMatrix<B>& A) const;
 
   const ContactRecords<B>& records() const { return records_; }
   std::size_t bytes() const;
   /// Values that a step takes from the last: functions to forget, save, copy and restore them.
   /// @{
-  void forget(const Exec& exec);
-  void persist(StateArchive<B>& archive, const std::string& name);
-  struct Kept {
+  void reset_history(const Exec& exec);
+  void persist(Archive<B>& archive, const std::string& name);
+  struct Snapshot {
     std::vector<Indices<B>> indices;
     std::vector<Scalars<B>> reals;
     Doubles<B> work;
     double found = 0;
     bool fresh = true;
-    void persist(StateArchive<B>& archive) {
+    void persist(Archive<B>& archive) {
       for (const auto& field : indices) archive.field("kept contact", field);
       for (const auto& field : reals) archive.field("kept contact", field);
       archive.field("kept work of friction", work);
       archive.number(found), archive.number(fresh);
     }
   };
-  void keep(const Exec& exec, Kept& to) const;
-  void put_back(const Exec& exec, const Level<B>& level, const Kept& from);
+  void keep(const Exec& exec, Snapshot& to) const;
+  void restore(const Exec& exec, const LevelData<B>& level, const Snapshot& from);
   /// @}
 
  private:
@@ -160,21 +162,21 @@ class ContactResponse {
   Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;
-  Kept aside_;                   ///< copy of the last step's records, in energy_found()
+  Snapshot aside_;               ///< copy of the last step's records, in energy_found()
   double part_ = 1, found_ = 0;  ///< found_: time of the state that the records are of [s]
   bool fresh_ = true;            ///< true: no last step is known
 
-  void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void solve(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
              const ContactStep& step, ExplicitContact<B> contact, const Respond& respond,
              const std::function<void()>& free);
-  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
-  void look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const;
-  RecordLater<B> later(const Exec& exec, const Level<B>& level, double time) const;
+  void find(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time);
+  void look(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time) const;
+  RecordLater<B> later(const Exec& exec, const LevelData<B>& level, double time) const;
   template <class End>
   void end(const Exec& exec, const char* label, const End& kernel) const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
+  void scatter(const Exec& exec, const LevelData<B>& level, const Vectors<B>& f,
                double factor = 1) const;
-  ImplicitContact<B> at(const Level<B>& level, const State<B>& state, double ahead) const;
+  ImplicitContact<B> at(const LevelData<B>& level, const State<B>& state, double ahead) const;
   ContactBalance read_balance(const Exec& exec) const;
   /// Calls use(name, field) for each field that is carried from step to step.
   template <class Use>

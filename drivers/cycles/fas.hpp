@@ -51,7 +51,7 @@ class FasCycle final : public SharedStep<B> {
   }
 
   static void restrict_state(Hierarchy<B>& h, int i) {
-    const Level<B>&fine = h[i - 1], &coarse = h[i];
+    const LevelData<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {
       update_vertices<B>(
           h.exec(), "plica::restrict", coarse.model.vertices,
@@ -62,14 +62,14 @@ class FasCycle final : public SharedStep<B> {
 
   /// Returns the contact step of the level's own sub-steps, for forces that tau is made of.
   /// A macro step is too long for a stiff penalty force to stay constant.
-  static ContactStep contact_of(const SolverLevel<B>& level, double t) {
+  static ContactStep contact_of(const Level<B>& level, double t) {
     return {.span = level.share * t / level.substeps, .ends = false};
   }
 
   /// Leaves in level.f the level's corrected force at this state, for the next coarser level.
   void correct(Hierarchy<B>& h, int i, double time, double t) {
-    const Level<B>& fine = h[i - 1];
-    SolverLevel<B>& coarse = h[i];
+    const LevelData<B>& fine = h[i - 1];
+    Level<B>& coarse = h[i];
     const Vectors<B>& tau = correction_[static_cast<std::size_t>(i)];
     coarse.set_correction({});
     coarse.evaluate(coarse.state, time, coarse.f, contact_of(coarse, t));
@@ -83,7 +83,7 @@ class FasCycle final : public SharedStep<B> {
   }
 
   static void interpolate_variation(Hierarchy<B>& h, int i) {
-    const Level<B>&fine = h[i], &coarse = h[i + 1];
+    const LevelData<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
       map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state,
                                   coarse.start, fine.state, fine.state, {});

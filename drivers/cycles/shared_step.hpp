@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <plica/drivers/cycles/plan_steps.hpp>
-#include <plica/drivers/cycles/regaining.hpp>
+#include <plica/drivers/cycles/regrow_schedule.hpp>
 #include <plica/drivers/cycles/stepper.hpp>
 #include <plica/drivers/elastic/largest_eigenvalue.hpp>
 #include <plica/drivers/methods/integrators.hpp>
@@ -13,7 +13,7 @@ namespace plica {
 ///
 /// The plan takes the limit of an explicit level at rest. A body that is pressed or struck
 /// stiffens, and its limit is shorter. So where the number of sub-steps was left to the plan,
-/// repair() halves the explicit levels' sub-steps. lengthen() doubles them again where the largest
+/// repair() halves the explicit levels' sub-steps. regrow() doubles them again where the largest
 /// eigenvalue allows it. Beyond the limit the fastest motion grows by a factor in every step. Where
 /// kinetic energy has grown much, lost_stability() computes the eigenvalue of the motion that there
 /// is.
@@ -52,7 +52,7 @@ class SharedStep : public Stepper<B> {
     const bool grew = kinetic > much * calm_;
     calm_ = grew ? kinetic : std::min(calm_, kinetic);
     for (int i = 0; grew && i < h.count(); ++i) {
-      const SolverLevel<B>& level = h[i];
+      const Level<B>& level = h[i];
       const double most = most_at(h, i, halvings_);
       if (most > 0 &&
           excited_eigenvalue<B>(h.exec(), stiffness_at(level, most), level.state.v) > most * most)
@@ -60,7 +60,7 @@ class SharedStep : public Stepper<B> {
     }
     return false;
   }
-  bool sees_late() const override { return true; }
+  bool detects_late() const override { return true; }
   bool can_repair() const override { return shortens_; }
   bool repairs(const Diagnosis& bad) const override { return shortens_ && bad.kind != "solver"; }
 
@@ -70,7 +70,7 @@ class SharedStep : public Stepper<B> {
     regaining_.cut();
     return true;
   }
-  void lengthen(Hierarchy<B>& h, double, long steps) override {
+  void regrow(Hierarchy<B>& h, double, long steps) override {
     if (halvings_ == 0 || !regaining_.due(steps)) return;
     const int before = halvings_;
     while (halvings_ > 0 && is_stable(h, halvings_ - 1)) --halvings_;
@@ -83,7 +83,7 @@ class SharedStep : public Stepper<B> {
     return {{"substep_halvings", cuts_}, {"substeps_regained", regaining_.count()}};
   }
 
-  void persist(StateArchive<B>& archive) override {
+  void persist(Archive<B>& archive) override {
     if (!shortens_) return;
     archive.number(halvings_), archive.number(cuts_), archive.number(calm_);
     regaining_.persist(archive);
@@ -95,17 +95,17 @@ class SharedStep : public Stepper<B> {
 
   /// Sets given motions on all levels to the same time [s], before any state is mapped.
   static void prescribe_levels(Hierarchy<B>& h, double time) {
-    for (SolverLevel<B>& level : h.levels) prescribe(h.exec(), level, level.state, time);
+    for (Level<B>& level : h.levels) prescribe(h.exec(), level, level.state, time);
   }
 
   /// Integrates level i over its share of a macro step of t [s], from `time` [s].
   /// Returns the time at the end [s].
   double integrate(Hierarchy<B>& h, int i, double time, double t) const {
-    SolverLevel<B>& level = h[i];
+    Level<B>& level = h[i];
     const double span = level.share * t;
-    level.book("integrate", [&] {
+    level.timed("integrate", [&] {
       prescribe(h.exec(), level, level.state, time);
-      if (h.count() > 1) level.integrator->forget();  // other levels have changed the state
+      if (h.count() > 1) level.integrator->reset_history();  // other levels have changed the state
       const int substeps =
           level.substeps * (is_explicit_[static_cast<std::size_t>(i)] ? parts() : 1);
       level.integrator->advance(level, time, span / substeps, substeps);
@@ -122,17 +122,17 @@ class SharedStep : public Stepper<B> {
   bool shortens_ = false;
   int halvings_ = 0;
   long cuts_ = 0;
-  Regaining regaining_;
+  RegrowSchedule regaining_;
   double calm_ = 0;  ///< reference that kinetic energy is compared with [J]
 
   /// Returns the largest stable angular frequency on level i with `halvings` [1/s]; 0: no limit.
   double most_at(const Hierarchy<B>& h, int i, int halvings) const {
-    const SolverLevel<B>& level = h[i];
+    const Level<B>& level = h[i];
     return radius_[static_cast<std::size_t>(i)] * level.substeps * (1 << halvings) /
            (level.share * macro_step_);
   }
 
-  static StiffnessAt<B> stiffness_at(const SolverLevel<B>& level, double over) {
+  static StiffnessAt<B> stiffness_at(const Level<B>& level, double over) {
     return {level, level.elasticity(), level.state.u, over};
   }
 

@@ -37,7 +37,7 @@ struct StepperSetup {
 ///   start    once, from the state that set-up has made
 ///   step     macro steps
 ///   check    lost_stability(), which may be true before the state is bad; repair() makes the
-///            next steps stable, and lengthen() takes that back
+///            next steps stable, and regrow() takes that back
 ///   report   counters(), bytes(); persist() for checkpoints
 template <class B>
 class Stepper {
@@ -60,7 +60,7 @@ class Stepper {
   /// `kinetic`: level 0's energy of motion about its mean [J].
   virtual bool lost_stability(const Hierarchy<B>&, double /*kinetic*/) { return false; }
   /// Returns true where lost_stability() detects an instability only some time after it began.
-  virtual bool sees_late() const { return false; }
+  virtual bool detects_late() const { return false; }
   /// Returns true where repair() can ever help.
   virtual bool can_repair() const { return false; }
   /// Returns true where repair() may help against what a check has found.
@@ -70,8 +70,8 @@ class Stepper {
   virtual bool repair(Hierarchy<B>&, double) { return false; }
   /// Makes steps that repair() has cut longer again, as far as the present state allows it.
   /// That state has passed its check. `steps`: macro steps of the run so far. Tries only now and
-  /// then, see Regaining, and waits then.
-  virtual void lengthen(Hierarchy<B>&, double /*t*/, long /*steps*/) {}
+  /// then, see RegrowSchedule, and waits then.
+  virtual void regrow(Hierarchy<B>&, double /*t*/, long /*steps*/) {}
   /// Returns into how many parts repairs have cut the plan's sub-steps.
   virtual int parts() const { return 1; }
 
@@ -80,7 +80,7 @@ class Stepper {
   virtual std::size_t bytes() const { return 0; }
   /// Passes to the archive all that the stepper carries from one macro step to the next.
   /// The levels' states are not among these.
-  virtual void persist(StateArchive<B>&) {}
+  virtual void persist(Archive<B>&) {}
 };
 
 }  // namespace plica

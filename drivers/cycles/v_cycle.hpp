@@ -23,7 +23,7 @@ class VCycle final : public SharedStep<B> {
  public:
   void begin(Hierarchy<B>& h) override {
     for (int i = 0; i < h.count() && h.count() > 1; ++i) {
-      Level<B>& level = h[i];
+      LevelData<B>& level = h[i];
       if (i > 0)
         map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {},
                                 {}, level.state, {});
@@ -56,7 +56,7 @@ class VCycle final : public SharedStep<B> {
   }
 
   static void remember_start(Hierarchy<B>& h, int i) {
-    Level<B>& level = h[i];
+    LevelData<B>& level = h[i];
     if (keeps_previous && i + 1 < h.count()) std::swap(level.start, level.previous);
     if (keeps_start) h.clock.time("keep", i, [&] { level.start.copy(h.exec(), level.state); });
   }
@@ -64,7 +64,7 @@ class VCycle final : public SharedStep<B> {
   // Must be called before the coarse level's start is stored anew. coarse.start is then the state
   // at the start of the last cycle.
   static void restrict_state(Hierarchy<B>& h, int i) {
-    const Level<B>&fine = h[i - 1], &coarse = h[i];
+    const LevelData<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {
       map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous,
                           coarse.start, coarse.state, coarse.drift_limit);
@@ -72,7 +72,7 @@ class VCycle final : public SharedStep<B> {
   }
 
   static void interpolate_state(Hierarchy<B>& h, int i) {
-    const Level<B>&fine = h[i], &coarse = h[i + 1];
+    const LevelData<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
       map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start,
                         fine.state, fine.state, fine.drift_limit);

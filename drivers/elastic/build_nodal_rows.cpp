@@ -254,14 +254,14 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
     return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
   };
   const std::vector<Domain> domains = Domains(mesh).all;
-  const bool smoothed = !constants.excess.empty();
+  const bool smoothed = !constants.bulk_excess.empty();
   NodalRows<B> rows = SlicedRows<B>(domains).on_device(mesh.vertices.size(), smoothed);
   std::vector<double> material;
   for (const std::vector<double>& of_region : constants.material)
     material.insert(material.end(), of_region.begin(), of_region.end());
   rows.constants = on_device("rows.constants", material);
   rows.stabiliser = on_device("rows.stabiliser", constants.stabiliser);
-  if (smoothed) rows.excess = on_device("rows.excess", constants.excess);
+  if (smoothed) rows.bulk_excess = on_device("rows.excess", constants.bulk_excess);
   if (!constants.damping.empty()) rows.damping = on_device("rows.damping", constants.damping);
   return rows;
 }
@@ -272,7 +272,7 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
   const auto n = static_cast<std::size_t>(rows.slots());
   work.near = zeros<Scalars<B>>("plica::nodal.near", 8 * n);
   work.records = zeros<Scalars<B>>("plica::nodal.records", 12 * n);
-  if (rows.excess.extent(0) == 0) return work;
+  if (rows.bulk_excess.extent(0) == 0) return work;
   work.ratio = zeros<Scalars<B>>("plica::nodal.ratio", 2 * n);
   work.pressure = zeros<Scalars<B>>("plica::nodal.pressure", 2 * n);
   return work;

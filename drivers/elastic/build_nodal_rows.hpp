@@ -11,7 +11,7 @@ struct NodalConstants {
   std::vector<std::vector<double>> material;  ///< constants of the material
   std::vector<double> stabiliser;             ///< beta mu [Pa]
   /// part of lambda that acts on smoothed volumes [Pa]; empty: pressures are not smoothed
-  std::vector<double> excess;
+  std::vector<double> bulk_excess;
   std::vector<double> damping;  ///< stiffness-proportional damping [s]; empty: none
 };
 

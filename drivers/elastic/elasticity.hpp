@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 #include <plica/core/implicit_weights.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/elastic/elements.hpp>
 #include <string_view>
@@ -18,37 +18,38 @@ class Elasticity {
   using Exec = typename B::Exec;
   virtual ~Elasticity() = default;
   /// Computes the forces of a state's displacement, and of its velocity where stiffness damps [N].
-  virtual void force(const Exec&, const Level<B>&, const State<B>&, int evaluation) const = 0;
-  /// Computes -(K(u) + `over` D(u)) p, D the damping of damping_stress.hpp, `over` in [1/s].
-  /// An empty u: the state whose gradients level.nodal keeps. `positive`: the tangents of elements
-  /// are projected to positive semi-definite; without a matrix only nodal elements do that.
-  virtual void tangent(const Exec&, const Level<B>&, const Vectors<B>& u, const Vectors<B>& p,
-                       double over, bool positive = false) const = 0;
-  /// Computes column `direction` of each vertex's own block of K(u) + `over` D(u).
+  virtual void force(const Exec&, const LevelData<B>&, const State<B>&, int evaluation) const = 0;
+  /// Computes -(K(u) + `damping_scale` D(u)) p, D the damping of damping_stress.hpp,
+  /// `damping_scale` in [1/s]. An empty u: the state whose gradients level.nodal keeps.
+  /// `projected`: the tangents of elements are projected to positive semi-definite; without a
+  /// matrix only nodal elements do that.
+  virtual void tangent(const Exec&, const LevelData<B>&, const Vectors<B>& u, const Vectors<B>& p,
+                       double damping_scale, bool projected = false) const = 0;
+  /// Computes column `direction` of each vertex's own block of K(u) + `damping_scale` D(u).
   /// At least the entries on the diagonal and in the next row (cyclic) are set. An empty u and
-  /// `positive`: see tangent(). Smoothed pressures of nodal elements are left out.
-  virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction,
-                        double over, bool positive = false) const = 0;
+  /// `projected`: see tangent(). Smoothed pressures of nodal elements are left out.
+  virtual void diagonal(const Exec&, const LevelData<B>&, const Vectors<B>& u, int direction,
+                        double damping_scale, bool projected = false) const = 0;
   /// Stores the projected tangents of the state whose gradients level.nodal keeps.
   /// They go to level.nodal.tangent, from where tangent() and diagonal() of that state read them if
-  /// `positive`.
-  virtual void keep_tangents(const Exec&, const Level<B>&) const {}
+  /// `projected`.
+  virtual void keep_tangents(const Exec&, const LevelData<B>&) const {}
   /// Assembles A = (1 + b c) M + a K(u) + b D(u) in blocks, of linear elements.
-  /// `positive`: the tangents of elements are projected to positive semi-definite.
+  /// `projected`: the tangents of elements are projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u,
-                      const ImplicitWeights&, bool positive, const Blocks9<B>& shares,
+                      const ImplicitWeights&, bool projected, const Blocks9<B>& shares,
                       const BlockMatrix<B>& A) const = 0;
   /// Computes the elements' elastic energy, into the x components of `partial` [J].
-  virtual void energy(const Exec&, const Level<B>&, const Vectors<B>& u) const = 0;
+  virtual void energy(const Exec&, const LevelData<B>&, const Vectors<B>& u) const = 0;
   /// Computes von Mises' stress [Pa] and J.
   /// Linear elements give a value per tetrahedron of the mesh, nodal elements one per vertex.
-  virtual void stress(const Exec&, const Level<B>&, const Vectors<B>& u,
+  virtual void stress(const Exec&, const LevelData<B>&, const Vectors<B>& u,
                       const Scalars<B>& von_mises, const Scalars<B>& J) const = 0;
   /// Advances level.stress.memory by level.stress.step, to the stress of shape of a displacement.
   /// `constants`: the model's constants without a stiffness of the volume. Does nothing for
-  /// materials that do not split shape from volume, see StressMemory.
-  virtual void remember(const Exec&, const Level<B>& level, const Vectors<B>& u,
-                        const Scalars<B>& constants) const = 0;
+  /// materials that do not split shape from volume, see ViscousHistory.
+  virtual void accept_state(const Exec&, const LevelData<B>& level, const Vectors<B>& u,
+                            const Scalars<B>& constants) const = 0;
 };
 
 /// Returns the kernels of a material, with elements of a kind.

@@ -14,7 +14,7 @@ namespace {
 template <class B>
 double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x,
                 const Vectors<B>& y, const BlockSums<B>& blocks, const Doubles<B>& result) {
-  K.elasticity.tangent(exec, K.level, K.u, x, K.over);
+  K.elasticity.tangent(exec, K.level, K.u, x, K.damping_scale);
   reduce<B, 1>(exec, "plica::lanczos_stiffness", K.level.model.vertices,
                StiffnessProduct<B>{K.level.model, K.level.partial, x, y}, blocks, result);
   return host_values(exec, result)[0];
@@ -22,7 +22,7 @@ double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vec
 
 /// Sets y = M^-1 x.
 template <class B>
-void multiply_by_inverse_mass(const typename B::Exec& exec, const Level<B>& level,
+void multiply_by_inverse_mass(const typename B::Exec& exec, const LevelData<B>& level,
                               const Vectors<B>& x, const Vectors<B>& y) {
   update_vertices<B>(exec, "plica::lanczos_inverse_mass", level.model.vertices,
                      MultiplyByInverseMass<B>{level.model.inverse_mass, x, y});

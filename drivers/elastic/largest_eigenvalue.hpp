@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/drivers/elastic/elasticity.hpp>
 
 namespace plica {
 
-/// Stiffness K of a level at the state u, plus `over` times its damping D.
+/// Stiffness K of a level at the state u, plus `damping_scale` times its damping D.
 /// D: see kernels/elastic/damping_stress.hpp.
 template <class B>
 struct StiffnessAt {
-  const Level<B>& level;
+  const LevelData<B>& level;
   const Elasticity<B>& elasticity;
   Vectors<B> u;
-  double over = 0;  ///< factor of D [1/s]
+  double damping_scale = 0;  ///< factor of D [1/s]
 };
 
 /// Function that sets y = A x.

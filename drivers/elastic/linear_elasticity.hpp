@@ -6,7 +6,7 @@
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
-#include <plica/kernels/elastic/remember_stress.hpp>
+#include <plica/kernels/elastic/record_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
@@ -19,38 +19,39 @@ class LinearElasticity final : public Elasticity<B> {
   using Exec = typename B::Exec;
 
  public:
-  void force(const Exec& exec, const Level<B>& level, const State<B>& state,
+  void force(const Exec& exec, const LevelData<B>& level, const State<B>& state,
              int evaluation) const override {
     elastic_force<B, Material>(exec, level.model.patches, state, level.flags, evaluation,
                                level.partial);
   }
-  void tangent(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
-               double over, bool) const override {
-    elastic_tangent<B, Material>(exec, level.model.patches, u, p, over, level.partial);
+  void tangent(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+               const Vectors<B>& p, double damping_scale, bool) const override {
+    elastic_tangent<B, Material>(exec, level.model.patches, u, p, damping_scale, level.partial);
   }
-  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
-                double over, bool) const override {
-    elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, over, level.partial);
+  void diagonal(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u, int direction,
+                double damping_scale, bool) const override {
+    elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, damping_scale,
+                                  level.partial);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
-              const Vectors<B>& u, const ImplicitWeights& weights, bool positive,
+              const Vectors<B>& u, const ImplicitWeights& weights, bool projected,
               const Blocks9<B>& shares, const BlockMatrix<B>& A) const override {
-    if (positive)
+    if (projected)
       elastic_blocks<B, Material, PositiveTangent<Material>::template Of>(exec, model, pairs, u,
                                                                           weights, shares, A);
     else
       elastic_blocks<B, Material, Material::template Tangent>(exec, model, pairs, u, weights,
                                                               shares, A);
   }
-  void energy(const Exec& exec, const Level<B>& level, const Vectors<B>& u) const override {
+  void energy(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u) const override {
     elastic_energy<B, Material>(exec, level.model.patches, u, level.partial);
   }
-  void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+  void stress(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
               const Scalars<B>& von_mises, const Scalars<B>& J) const override {
-    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.lost);
+    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.relaxed);
   }
-  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                const Scalars<B>& constants) const override {
+  void accept_state(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+                    const Scalars<B>& constants) const override {
     if constexpr (requires { Material::splits_shape; })
       remember_elements<B, Material>(exec, level, u, constants);
   }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/kernels/materials/list.hpp>
@@ -234,7 +234,7 @@ void check_tissue(const MaterialInfo& info, const Body& body) {
         "body.material.terms is missing; expected those of ogden, such as [{mu: 1 kPa, alpha: 2}]");
   if (info.has_terms && !m.convention)
     throw InputError("body.material.convention is missing; ogden has no standard one, expected " +
-                     keys::Name{"convention", ogden_conventions}.expects());
+                     keys::Name{"convention", ogden_conventions}.type_text());
   if (!info.has_fibres || m.fibres) check_at_rest(info, "body.material", m, {});
   bool all = !body.regions.empty();
   for (const auto& [region, o] : body.regions) {

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <plica/kernels/elastic/kept_tangents.hpp>
-#include <plica/kernels/elastic/remember_stress.hpp>
+#include <plica/kernels/elastic/record_stress.hpp>
 
 namespace plica {
 
@@ -18,52 +18,54 @@ class NodalElasticity final : public Elasticity<B> {
   using Exec = typename B::Exec;
 
  public:
-  void force(const Exec& exec, const Level<B>& level, const State<B>& state,
+  void force(const Exec& exec, const LevelData<B>& level, const State<B>& state,
              int evaluation) const override {
     nodal_force<B, Material>(exec, level, state, evaluation);
   }
-  void tangent(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
-               double over, bool positive) const override {
-    if (positive && has_kept(level, u))
+  void tangent(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+               const Vectors<B>& p, double damping_scale, bool projected) const override {
+    if (projected && has_kept(level, u))
       kept_tangent<B>(exec, level, p);
-    else if (positive)
-      nodal_tangent<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, p, over);
+    else if (projected)
+      nodal_tangent<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, p,
+                                                                         damping_scale);
     else
-      nodal_tangent<B, Material, Material::template Tangent>(exec, level, u, p, over);
+      nodal_tangent<B, Material, Material::template Tangent>(exec, level, u, p, damping_scale);
   }
-  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
-                double over, bool positive) const override {
-    if (positive && has_kept(level, u))
+  void diagonal(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u, int direction,
+                double damping_scale, bool projected) const override {
+    if (projected && has_kept(level, u))
       kept_diagonal<B>(exec, level, direction);
-    else if (positive)
-      nodal_diagonal<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, over,
-                                                                          direction);
+    else if (projected)
+      nodal_diagonal<B, Material, PositiveTangent<Material>::template Of>(exec, level, u,
+                                                                          damping_scale, direction);
     else
-      nodal_diagonal<B, Material, Material::template Tangent>(exec, level, u, over, direction);
+      nodal_diagonal<B, Material, Material::template Tangent>(exec, level, u, damping_scale,
+                                                              direction);
   }
-  void keep_tangents(const Exec& exec, const Level<B>& level) const override {
+  void keep_tangents(const Exec& exec, const LevelData<B>& level) const override {
     keep_nodal_tangents<B, Material>(exec, level);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
-              const Vectors<B>& u, const ImplicitWeights& weights, bool positive,
+              const Vectors<B>& u, const ImplicitWeights& weights, bool projected,
               const Blocks9<B>& shares, const BlockMatrix<B>& A) const override {
-    linear_->blocks(exec, model, pairs, u, weights, positive, shares, A);
+    linear_->blocks(exec, model, pairs, u, weights, projected, shares, A);
   }
-  void energy(const Exec& exec, const Level<B>& level, const Vectors<B>& u) const override {
+  void energy(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u) const override {
     nodal_energy<B, Material>(exec, level, u);
   }
-  void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+  void stress(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
               const Scalars<B>& von_mises, const Scalars<B>& J) const override {
     nodal_stress<B, Material>(exec, level, u, von_mises, J);
   }
-  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                const Scalars<B>& constants) const override {
+  void accept_state(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+                    const Scalars<B>& constants) const override {
     if constexpr (requires { Material::splits_shape; })
       remember_domains<B, Material>(exec, level, u, constants);
   }
 
  private:
-  static bool has_kept(const Level<B>& level, const Vectors<B>& u) {
+  static bool has_kept(const LevelData<B>& level, const Vectors<B>& u) {
     return u.extent(0) == 0 && level.nodal.tangent.extent(0) > 0;
   }
   std::unique_ptr<Elasticity<B>> linear_ = make_linear_elasticity<B, Material>();

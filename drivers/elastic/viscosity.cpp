@@ -3,7 +3,7 @@
 #include <cmath>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/elastic/viscosity.hpp>
-#include <plica/kernels/elastic/lost_stress.hpp>
+#include <plica/kernels/elastic/relaxed_stress.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -23,7 +23,7 @@ struct ScaleShape {
 
 /// Returns the region of each set of the level's constants.
 template <class B>
-std::vector<int> regions_of_sets(const TetMesh& mesh, const Level<B>& level) {
+std::vector<int> regions_of_sets(const TetMesh& mesh, const LevelData<B>& level) {
   std::vector<int> regions;
   if (level.model.rows.slices > 0) {
     const std::size_t count = mesh.region.empty() ? 1 : mesh.region_names.size();
@@ -51,7 +51,7 @@ Scalars<B> constants_of_sets(const char* name, const std::vector<int>& regions,
 
 /// Returns the region of each pack of elements or rows.
 template <class B>
-std::vector<int> regions_of_packs(const TetMesh& mesh, const Level<B>& level) {
+std::vector<int> regions_of_packs(const TetMesh& mesh, const LevelData<B>& level) {
   std::vector<int> regions;
   const NodalRows<B>& rows = level.model.rows;
   if (rows.slices > 0) {
@@ -89,7 +89,7 @@ RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& p
 
 template <class B>
 Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule,
-                        const TetMesh& mesh, Level<B>& level)
+                        const TetMesh& mesh, LevelData<B>& level)
     : steps_(relaxation_steps<B>(constants.prony)) {
   steps_.backward_euler = rule == "backward_euler";
   const bool nodal = level.model.rows.slices > 0;
@@ -101,12 +101,12 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
   const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots()
                                                     : level.model.patches.packs * B::lanes);
-  StressMemory<B>& stress = level.stress;
+  ViscousHistory<B>& stress = level.stress;
   stress.terms = steps_.terms, stress.step = steps_.step;
   stress.region = to_device<Indices<B>>("viscosity.region", regions_of_packs(mesh, level));
   stress.memory = zeros<Scalars<B>>("plica::viscosity.memory",
                                     slots * 6 * static_cast<std::size_t>(1 + stress.terms));
-  stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
+  stress.relaxed = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
   stepped_ = none;
 }
 
@@ -122,21 +122,22 @@ void Viscosity<B>::step_over(const Exec& exec, double t) {
 }
 
 template <class B>
-void Viscosity<B>::remember(const Exec& exec, const Level<B>& level,
-                            const Elasticity<B>& elasticity, const Vectors<B>& u, double time) {
+void Viscosity<B>::accept_state(const Exec& exec, const LevelData<B>& level,
+                                const Elasticity<B>& elasticity, const Vectors<B>& u, double time) {
   step_over(exec, std::max(0.0, time - time_));
-  elasticity.remember(exec, level, u, isochoric_);
+  elasticity.accept_state(exec, level, u, isochoric_);
   time_ = time, looked_ = none;
 }
 
 template <class B>
-void Viscosity<B>::look_at(const Exec& exec, const Level<B>& level, double time) {
+void Viscosity<B>::prepare_at(const Exec& exec, const LevelData<B>& level, double time) {
   const double t = std::max(0.0, time - time_);
   take_share(exec, t);
   if (t == looked_) return;
   step_over(exec, t);
-  update_vertices<B>(exec, "plica::combine_memory", static_cast<int>(level.stress.lost.extent(0)),
-                     CombineMemory<B>{level.stress, steps_.weight});
+  update_vertices<B>(exec, "plica::combine_memory",
+                     static_cast<int>(level.stress.relaxed.extent(0)),
+                     CombineHistory<B>{level.stress, steps_.weight});
   looked_ = t;
 }
 
@@ -154,7 +155,7 @@ void Viscosity<B>::take_share(const Exec& exec, double t) {
 }
 
 template <class B>
-void Viscosity<B>::keep(const Exec& exec, const Level<B>& level, Kept& to) const {
+void Viscosity<B>::keep(const Exec& exec, const LevelData<B>& level, Snapshot& to) const {
   if (to.memory.extent(0) == 0)
     to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
   copy(exec, to.memory, level.stress.memory);
@@ -162,13 +163,13 @@ void Viscosity<B>::keep(const Exec& exec, const Level<B>& level, Kept& to) const
 }
 
 template <class B>
-void Viscosity<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
+void Viscosity<B>::restore(const Exec& exec, const LevelData<B>& level, const Snapshot& from) {
   copy(exec, level.stress.memory, from.memory);
   set_time(from.time);
 }
 
 template <class B>
-void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level,
+void Viscosity<B>::persist(Archive<B>& archive, const LevelData<B>& level,
                            const std::string& name) {
   archive.field(name + "memory of stress", level.stress.memory);
   archive.number(time_);
@@ -176,8 +177,8 @@ void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level,
 }
 
 template <class B>
-std::size_t Viscosity<B>::bytes(const Level<B>& level) const {
-  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.lost.extent(0) +
+std::size_t Viscosity<B>::bytes(const LevelData<B>& level) const {
+  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.relaxed.extent(0) +
                               whole_.extent(0) + half_.extent(0) + isochoric_.extent(0) +
                               level.stress.region.extent(0);
   return numbers * sizeof(Real);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <limits>
+#include <plica/core/archive.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/core/state_archive.hpp>
 #include <plica/drivers/elastic/elasticity.hpp>
-#include <plica/kernels/elastic/stress_memory.hpp>
+#include <plica/kernels/elastic/viscous_history.hpp>
 
 namespace plica {
 
@@ -17,7 +17,7 @@ struct ShapeConstants {
   std::vector<std::vector<double>> isochoric;
 };
 
-/// Relaxation of one level's stresses, by the rules of kernels/elastic/stress_memory.hpp.
+/// Relaxation of one level's stresses, by the rules of kernels/elastic/viscous_history.hpp.
 /// The memory has the stresses at one time. Forces at later times are computed from it. Only
 /// remember() advances the memory, by the time that has passed; a second call at the same time and
 /// state changes nothing. So forces may be evaluated at any number of trial states. Code that
@@ -30,27 +30,27 @@ class Viscosity {
   /// Makes the relaxation of a level that is built, and level.stress.
   /// `rule` is one of relaxation_rules().
   Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh,
-            Level<B>& level);
+            LevelData<B>& level);
 
   /// Advances the memory to the displacements u of the body at `time` [s].
-  void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u,
-                double time);
+  void accept_state(const Exec&, const LevelData<B>&, const Elasticity<B>&, const Vectors<B>& u,
+                    double time);
   /// Sets the model's constants and the relaxed stress level.stress.lost for forces at `time` [s].
-  void look_at(const Exec&, const Level<B>&, double time);
+  void prepare_at(const Exec&, const LevelData<B>&, double time);
   /// Sets the model's constants of the instantaneous response, without relaxation.
   void look_at_once(const Exec& exec) { take_share(exec, 0); }
   /// Sets the time of the memory [s].
   void set_time(double time) { time_ = time, looked_ = none; }
 
   /// Snapshot of the values that are carried from step to step.
-  struct Kept {
+  struct Snapshot {
     Scalars<B> memory;
     double time = 0;
   };
-  void keep(const Exec&, const Level<B>&, Kept& to) const;
-  void put_back(const Exec&, const Level<B>&, const Kept& from);
-  void persist(StateArchive<B>& archive, const Level<B>& level, const std::string& name);
-  std::size_t bytes(const Level<B>& level) const;
+  void keep(const Exec&, const LevelData<B>&, Snapshot& to) const;
+  void restore(const Exec&, const LevelData<B>&, const Snapshot& from);
+  void persist(Archive<B>& archive, const LevelData<B>& level, const std::string& name);
+  std::size_t bytes(const LevelData<B>& level) const;
 
  private:
   using Real = typename B::Real;

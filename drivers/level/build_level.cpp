@@ -33,15 +33,15 @@ void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants 
   model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
   if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
   if (beside == BesideNodal::matrix) return;
-  constants.excess.clear();
+  constants.bulk_excess.clear();
   model.float_rows = build_nodal_rows<F>(placed, constants);
   if (!c.fibres.empty())
     model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
 }
 
 template <class B>
-void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
-                  BesideNodal beside) {
+void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
+                  const LevelConstants& c, BesideNodal beside) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
@@ -52,7 +52,7 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
     NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
     for (const Lame<double>& lame : c.lame) {
       constants.stabiliser.push_back(body.stabilisation * lame.mu);
-      if (smoothed) constants.excess.push_back(lame.lambda - capped_lambda(lame));
+      if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
     }
     model.rows = build_nodal_rows<B>(placed, constants);
     model.shares = model.rows.shares;
@@ -70,11 +70,11 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
 }  // namespace
 
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
-                     BesideNodal beside) {
+LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
+                         BesideNodal beside) {
   using Real = typename B::Real;
   const std::size_t n = placed.vertices.size();
-  Level<B> level;
+  LevelData<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   add_elements(level, body, placed, c, beside);
@@ -110,8 +110,8 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   return level;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                   \
-  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
+#define PLICA_INSTANTIATE(Real, Exec)                                       \
+  template LevelData<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
       const Body&, const TetMesh&, const LevelConstants&, BesideNodal);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <vector>
@@ -13,7 +13,7 @@ enum class BesideNodal { nothing, matrix, matrix_and_rows };
 
 /// Builds model, state and work arrays of a level, without transfers and surface.
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
-                     BesideNodal beside = BesideNodal::nothing);
+LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
+                         BesideNodal beside = BesideNodal::nothing);
 
 }  // namespace plica

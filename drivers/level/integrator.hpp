@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <map>
-#include <plica/core/state_archive.hpp>
+#include <plica/core/archive.hpp>
 #include <string>
 
 namespace plica {
 
 template <class B>
-class SolverLevel;
+class Level;
 
 /// Integrator in time of one level: its ODE solver.
 template <class B>
@@ -16,7 +16,7 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found again in
   /// every step.
-  virtual void advance(SolverLevel<B>& level, double time, double h, int steps) = 0;
+  virtual void advance(Level<B>& level, double time, double h, int steps) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Returns the size of the integrator's own device memory [bytes].
   virtual std::size_t bytes() const { return 0; }
@@ -33,9 +33,9 @@ class Integrator {
   virtual std::string failure() const { return {}; }
   /// Forgets what is carried from earlier steps, which does not belong to a state that was
   /// replaced.
-  virtual void forget() {}
+  virtual void reset_history() {}
   /// Names to the archive what is carried from one macro step to the next, to save and restore it.
-  virtual void persist(StateArchive<B>&) {}
+  virtual void persist(Archive<B>&) {}
 };
 
 }  // namespace plica

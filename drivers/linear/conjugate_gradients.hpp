@@ -29,7 +29,7 @@ struct ConjugateGradients {
    public:
     using Exec = typename B::Exec;
 
-    Of(const Level<B>& level, const LinearSolverParts& parts)
+    Of(const LevelData<B>& level, const LinearSolverParts& parts)
         : options_(parts.options),
           system_(level, parts.options.matrix == "assembled"),
           krylov_(level.model.vertices),
@@ -39,10 +39,10 @@ struct ConjugateGradients {
       if (preconditioner_) rest_ = zeros<Vectors<B>>("plica::cg.rest", level.model.vertices);
     }
 
-    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-                 bool positive) override {
+    void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool projected) override {
       const Exec& exec = level.exec();
-      system_.prepare(level, state, weights, positive);
+      system_.prepare(level, state, weights, projected);
       if (restored_ && fitted_) preconditioner_->refit(exec);
       restored_ = false;
       if (!preconditions() || (fitted_ && weights.a == a_ && weights.b == b_ && spent_ < patience))
@@ -63,7 +63,7 @@ struct ConjugateGradients {
       ImplicitOptions options = options_;
       options.relative_residual = tolerance;
       if (!preconditions())
-        return remember(exec, krylov_.solve(exec, system_, nullptr, last, options, r, x), x);
+        return accept_state(exec, krylov_.solve(exec, system_, nullptr, last, options, r, x), x);
       if (options.preconditioner == MultigridCycle::name)
         options.max_iterations = std::min(options.max_iterations, most_cycles);
       const KrylovOutcome out =
@@ -74,9 +74,9 @@ struct ConjugateGradients {
       const bool gives_up = !out.converged && !out.indefinite && options.iterations == 0 &&
                             std::isfinite(out.relative_residual);
       given_up_ = gives_up ? given_up_ + 1 : 0;
-      if (!gives_up) return remember(exec, out, x);
+      if (!gives_up) return accept_state(exec, out, x);
       spent_ = patience;
-      return remember(exec, finish(exec, out, r, x, tolerance), x);
+      return accept_state(exec, finish(exec, out, r, x, tolerance), x);
     }
 
     bool converges() const override { return options_.iterations == 0; }
@@ -89,7 +89,7 @@ struct ConjugateGradients {
       return system_.bytes() + krylov_.bytes() + (last_ ? last_->bytes() : 0) +
              (preconditioner_ ? preconditioner_->bytes() + bytes_of_views(rest_) : 0);
     }
-    void persist(StateArchive<B>& archive) override {
+    void persist(Archive<B>& archive) override {
       if (last_) last_->persist(archive);
       if (!preconditioner_) return;
       for (long* count : {&fitted_, &fits_, &given_up_}) archive.number(*count);
@@ -112,7 +112,7 @@ struct ConjugateGradients {
 
     bool preconditions() const { return preconditioner_ && given_up_ < 2; }
 
-    SolveOutcome remember(const Exec& exec, const KrylovOutcome& out, const Vectors<B>& x) {
+    SolveOutcome accept_state(const Exec& exec, const KrylovOutcome& out, const Vectors<B>& x) {
       if (last_ && out.converged) last_->add(exec, x);
       return out;
     }

@@ -10,7 +10,7 @@
 namespace plica {
 
 template <class B>
-CycleProduct<B>::CycleProduct(const Level<B>& level, std::string_view material,
+CycleProduct<B>::CycleProduct(const LevelData<B>& level, std::string_view material,
                               const Blocks<B>& inverse_diagonal)
     : elasticity_(make_elasticity<F>(material, Element::nodal)),
       inverse_diagonal_(inverse_diagonal) {
@@ -33,8 +33,8 @@ CycleProduct<B>::CycleProduct(const Level<B>& level, std::string_view material,
 }
 
 template <class B>
-void CycleProduct<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
-                              const ImplicitWeights& weights, bool positive) {
+void CycleProduct<B>::prepare(const Level<B>& level, const State<B>& state,
+                              const ImplicitWeights& weights, bool projected) {
   const Exec& exec = level.exec();
   const auto convert_to = [&](const auto& from, const auto& to) {
     convert(exec, "plica::cycle_values", from, to);
@@ -43,10 +43,10 @@ void CycleProduct<B>::prepare(const SolverLevel<B>& level, const State<B>& state
     convert_to(level.model.mass, level_.model.mass);
     convert_to(level.model.damping.of_vertex, level_.model.damping.of_vertex);
   }
-  forces_ = &level, weights_ = weights, positive_ = positive;
+  forces_ = &level, weights_ = weights, positive_ = projected;
   convert_to(state.u, u_);
   keep_gradients<F>(exec, level_, u_);
-  if (!positive || !keeps_tangents(level_.model.rows)) return;
+  if (!projected || !keeps_tangents(level_.model.rows)) return;
   if (level_.nodal.tangent.extent(0) == 0)
     level_.nodal.tangent =
         zeros<Scalars<F>>("plica::cycle.tangent",

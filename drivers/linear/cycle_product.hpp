@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 #include <plica/drivers/elastic/elasticity.hpp>
-#include <plica/drivers/level/solver_level.hpp>
+#include <plica/drivers/level/level.hpp>
 #include <string_view>
 
 namespace plica {
@@ -18,12 +18,13 @@ class CycleProduct {
 
   /// @param level             level whose model has the rows in float
   /// @param inverse_diagonal  inverses of A's vertex blocks; later changes of the array are seen
-  CycleProduct(const Level<B>& level, std::string_view material, const Blocks<B>& inverse_diagonal);
+  CycleProduct(const LevelData<B>& level, std::string_view material,
+               const Blocks<B>& inverse_diagonal);
 
   /// Sets A to the system of a level at `state`, see StageSystem::prepare().
   /// Contact is not copied: each product reads it from the level.
-  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-               bool positive);
+  void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+               bool projected);
   /// Sets q = A p. `To` is Vectors or SlotVectors, whose slots are the vertices.
   template <class To>
   void apply(const Exec& exec, const Vectors<F>& p, const To& q) const;
@@ -31,12 +32,12 @@ class CycleProduct {
   std::size_t bytes() const;
 
  private:
-  Level<F> level_;
+  LevelData<F> level_;
   std::unique_ptr<Elasticity<F>> elasticity_;
   Blocks<B> inverse_diagonal_;
   Vectors<F> u_;
   Vectors<B> p_, beside_;  ///< vectors of the product with the part of A that is not from elements
-  const SolverLevel<B>* forces_ = nullptr;
+  const Level<B>* forces_ = nullptr;
   ImplicitWeights weights_;
   bool positive_ = false;
 };

@@ -23,13 +23,13 @@ struct Direct {
     using Exec = typename B::Exec;
     using Matrix = Eigen::SparseMatrix<double>;
 
-    Of(const Level<B>& level, const LinearSolverParts& parts)
+    Of(const LevelData<B>& level, const LinearSolverParts& parts)
         : system_(level, true), projects_(parts.options.tangent == "auto") {}
 
-    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-                 bool positive) override {
-      factorise(level, state, weights, positive);
-      if (positive || !projects_ || !indefinite()) return;
+    void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool projected) override {
+      factorise(level, state, weights, projected);
+      if (projected || !projects_ || !indefinite()) return;
       factorise(level, state, weights, true);  // an indefinite A may raise the energy
       ++projected_;
     }
@@ -57,7 +57,7 @@ struct Direct {
     std::map<std::string, long> counters() const override {
       return {{"projected_systems", projected_}};
     }
-    void persist(StateArchive<B>& archive) override { archive.number(projected_); }
+    void persist(Archive<B>& archive) override { archive.number(projected_); }
     std::size_t bytes() const override {
       return system_.bytes() + static_cast<std::size_t>(nonzeros_ + lower_.nonZeros()) *
                                    (sizeof(double) + sizeof(int));
@@ -81,10 +81,10 @@ struct Direct {
       return factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any();
     }
 
-    void factorise(const SolverLevel<B>& level, const State<B>& state,
-                   const ImplicitWeights& weights, bool positive) {
+    void factorise(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                   bool projected) {
       const Exec& exec = level.exec();
-      system_.prepare(level, state, weights, positive);
+      system_.prepare(level, state, weights, projected);
       const BlockMatrix<B>& A = system_.matrix(exec);
       fence(exec, "plica::direct");
       if (lower_.rows() == 0) analyse(A);

@@ -39,7 +39,7 @@ std::size_t LastSolutions<B>::bytes() const {
 }
 
 template <class B>
-void LastSolutions<B>::persist(StateArchive<B>& archive) {
+void LastSolutions<B>::persist(Archive<B>& archive) {
   archive.number(count_);
   for (const auto& w : space_.w) archive.field("a last solution", w);
 }

@@ -24,7 +24,7 @@ class LastSolutions {
   /// Stores a solution in place of the oldest one.
   void add(const Exec& exec, const Vectors<B>& x);
   std::size_t bytes() const;
-  void persist(StateArchive<B>& archive);
+  void persist(Archive<B>& archive);
 
  private:
   SolutionSpace<B> space_;

@@ -3,11 +3,11 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <plica/core/archive.hpp>
 #include <plica/core/implicit_weights.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/core/state_archive.hpp>
-#include <plica/drivers/level/solver_level.hpp>
+#include <plica/drivers/level/level.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <vector>
 
@@ -39,10 +39,10 @@ class LinearSolver {
   using Exec = typename B::Exec;
   virtual ~LinearSolver() = default;
   /// Sets the system A to that of a level at `state`, where its forces have just been linearised.
-  /// Level, state and forces must not change until the solve. `positive`: the tangents of elements
+  /// Level, state and forces must not change until the solve. `projected`: the tangents of elements
   /// are projected to positive semi-definite ones.
-  virtual void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights&,
-                       bool positive) = 0;
+  virtual void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights&,
+                       bool projected) = 0;
   /// Sets q = A p where an assembled matrix has all of A; else does nothing and returns false.
   virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const {
     return false;
@@ -57,7 +57,7 @@ class LinearSolver {
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Returns the size of the solver's own device memory [bytes].
   virtual std::size_t bytes() const = 0;
-  virtual void persist(StateArchive<B>&) {}
+  virtual void persist(Archive<B>&) {}
 };
 
 }  // namespace plica

@@ -165,7 +165,7 @@ std::string describe(const LinearSolverParts& parts) {
 
 template <class B>
 std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& parts,
-                                                    const Level<B>& level) {
+                                                    const LevelData<B>& level) {
   if (!B::on_host && parts.options.solver == Direct::name)
     throw InputError(
         "integration.implicit.solver is direct, which factorises on the host; this run's fields "
@@ -182,7 +182,7 @@ std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& par
 #define PLICA_INSTANTIATE(Real, Exec)                               \
   template std::unique_ptr<LinearSolver<Backend<Real, Exec>>>       \
   make_linear_solver<Backend<Real, Exec>>(const LinearSolverParts&, \
-                                          const Level<Backend<Real, Exec>>&);
+                                          const LevelData<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -22,6 +22,6 @@ std::string describe(const LinearSolverParts& parts);
 /// Throws InputError for a direct solver where the host cannot read device memory.
 template <class B>
 std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& parts,
-                                                    const Level<B>& level);
+                                                    const LevelData<B>& level);
 
 }  // namespace plica

@@ -256,7 +256,7 @@ void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>
 }
 
 template <class B>
-void Multigrid<B>::persist(StateArchive<B>& archive) {
+void Multigrid<B>::persist(Archive<B>& archive) {
   if (finest_) archive.number(largest_);
   archive.field("the preconditioner's matrix", grids_.front().A.value);
   archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/archive.hpp>
 #include <plica/core/matrices.hpp>
-#include <plica/core/state_archive.hpp>
 #include <plica/drivers/linear/cycle_product.hpp>
 #include <plica/drivers/linear/host_pattern.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
@@ -27,7 +27,7 @@ class Preconditioner {
   virtual void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const = 0;
   virtual std::size_t bytes() const = 0;
   /// Passes to the archive what the preconditioner was fitted to; after a restore call refit().
-  virtual void persist(StateArchive<B>& archive) = 0;
+  virtual void persist(Archive<B>& archive) = 0;
   virtual void refit(const Exec& exec) = 0;
 };
 
@@ -96,7 +96,7 @@ class Multigrid final : public Preconditioner<B> {
   void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) override;
   void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const override;
   std::size_t bytes() const override;
-  void persist(StateArchive<B>& archive) override;
+  void persist(Archive<B>& archive) override;
   void refit(const Exec& exec) override;
 
  private:

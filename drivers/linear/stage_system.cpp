@@ -7,7 +7,7 @@
 namespace plica {
 
 template <class B>
-StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
+StageSystem<B>::StageSystem(const LevelData<B>& level, bool assembled)
     : nodal_(level.model.rows.slices > 0),
       assembled_(assembled),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
@@ -28,14 +28,14 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
 }
 
 template <class B>
-void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
-                             const ImplicitWeights& weights, bool positive) {
+void StageSystem<B>::prepare(const Level<B>& level, const State<B>& state,
+                             const ImplicitWeights& weights, bool projected) {
   const Exec& exec = level.exec();
-  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive,
+  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = projected,
   ready_ = false;
   if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
-  if (cycle_product_) cycle_product_->prepare(level, state_, weights, positive);
-  level.diagonal(state, weights, positive, inverse_diagonal_);
+  if (cycle_product_) cycle_product_->prepare(level, state_, weights, projected);
+  level.diagonal(state, weights, projected, inverse_diagonal_);
   add_contact_blocks(exec, false, inverse_diagonal_);
   invert_blocks(exec, inverse_diagonal_);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
-#include <plica/drivers/level/solver_level.hpp>
+#include <plica/drivers/level/level.hpp>
 #include <plica/drivers/linear/block_pattern.hpp>
 #include <plica/drivers/linear/multigrid.hpp>
 #include <plica/kernels/linear/krylov.hpp>
@@ -17,13 +17,13 @@ class StageSystem {
  public:
   using Exec = typename B::Exec;
 
-  StageSystem(const Level<B>& level, bool assembled);
+  StageSystem(const LevelData<B>& level, bool assembled);
 
   /// Sets A to the system of a level at `state`, where its forces have just been linearised.
-  /// State and forces must not change until the next call. `positive`: with projected tangents, for
-  /// which linear elements are always assembled.
-  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-               bool positive);
+  /// State and forces must not change until the next call. `projected`: with projected tangents,
+  /// for which linear elements are always assembled.
+  void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+               bool projected);
   /// Sets A to the system of the last prepare() with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// Sets q = A p.
@@ -57,8 +57,8 @@ class StageSystem {
   /// inverses of vertex blocks: of A; of the matrix, for nodal elements without cycle_product_
   Blocks<B> inverse_diagonal_, blocks_of_matrix_;
   std::unique_ptr<CycleProduct<B>> cycle_product_;
-  const Level<B>* level_ = nullptr;
-  const SolverLevel<B>* forces_ = nullptr;
+  const LevelData<B>* level_ = nullptr;
+  const Level<B>* forces_ = nullptr;
   State<B> state_;
   ImplicitWeights weights_;
   bool positive_ = false;

@@ -23,7 +23,7 @@ struct VCycleSolver {
    public:
     using Exec = typename B::Exec;
 
-    Of(const Level<B>& level, const LinearSolverParts& parts)
+    Of(const LevelData<B>& level, const LinearSolverParts& parts)
         : system_(level, false),
           projects_(parts.options.tangent == "auto"),
           cycle_(MultigridCycle::template make<B>(parts, system_)),
@@ -33,10 +33,10 @@ struct VCycleSolver {
           sums_(level.model.vertices) {}
 
     bool converges() const override { return false; }
-    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-                 bool positive) override {
+    void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool projected) override {
       const Exec& exec = level.exec();
-      system_.prepare(level, state, weights, positive);
+      system_.prepare(level, state, weights, projected);
       if (restored_ && fitted_) cycle_->refit(exec);
       restored_ = false;
       const bool same =
@@ -64,7 +64,7 @@ struct VCycleSolver {
       return system_.bytes() + cycle_->bytes() +
              (residual_.span() + scaled_.span()) * sizeof(typename B::Real);
     }
-    void persist(StateArchive<B>& archive) override {
+    void persist(Archive<B>& archive) override {
       for (long* count : {&fitted_, &fits_}) archive.number(*count);
       for (double* value : {&a_, &b_, &first_}) archive.number(*value);
       cycle_->persist(archive);

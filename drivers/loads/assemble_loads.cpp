@@ -6,6 +6,8 @@
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/loads/cavity.hpp>
+#include <plica/drivers/loads/dead_loads.hpp>
+#include <plica/drivers/loads/follower_pressures.hpp>
 
 namespace plica {
 
@@ -94,6 +96,8 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
   return all;
 }
 
+namespace {
+
 template <class B>
 std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledLoad>& loads) {
   using Real = typename B::Real;
@@ -107,8 +111,6 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
   }
   return all;
 }
-
-namespace {
 
 template <class B>
 FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
@@ -143,8 +145,6 @@ std::vector<char> still_vertices(const LevelConstants& constants) {
   return still;
 }
 
-}  // namespace
-
 template <class B>
 std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh,
                                             const LevelConstants& constants, int level) {
@@ -169,11 +169,25 @@ std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mes
   return all;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                          \
-  template std::vector<Load<Backend<Real, Exec>>> device_loads<Backend<Real, Exec>>(           \
-      const Body&, const std::vector<AssembledLoad>&);                                         \
-  template std::vector<FollowerLoad<Backend<Real, Exec>>> follower_loads<Backend<Real, Exec>>( \
-      const Body&, const TetMesh&, const LevelConstants&, int);
+}  // namespace
+
+template <class B>
+std::vector<std::unique_ptr<ForceTerm<B>>> make_force_terms(const Body& body, const TetMesh& mesh,
+                                                            const LevelConstants& constants,
+                                                            const std::vector<AssembledLoad>& loads,
+                                                            int level) {
+  std::vector<std::unique_ptr<ForceTerm<B>>> terms;
+  if (auto dead = device_loads<B>(body, loads); !dead.empty())
+    terms.push_back(std::make_unique<DeadLoads<B>>(std::move(dead)));
+  if (auto followers = follower_loads<B>(body, mesh, constants, level); !followers.empty())
+    terms.push_back(std::make_unique<FollowerPressures<B>>(std::move(followers)));
+  return terms;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                       \
+  template std::vector<std::unique_ptr<ForceTerm<Backend<Real, Exec>>>>                     \
+  make_force_terms<Backend<Real, Exec>>(const Body&, const TetMesh&, const LevelConstants&, \
+                                        const std::vector<AssembledLoad>&, int);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <memory>
+#include <plica/core/level_data.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
+#include <plica/drivers/loads/force_term.hpp>
 #include <vector>
 
 namespace plica {
@@ -26,15 +28,13 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
                                           const LevelConstants& constants, int level,
                                           const std::vector<AssembledLoad>& finest);
 
-/// Copies the dead ones of a body's assembled loads to the device. Dead loads do not follow the
-/// body.
+/// Makes the force terms that a body's options ask for on a level, in the order in which they are
+/// added; `loads` are those assembled on its mesh, which is at rest. A new kind of term is one more
+/// entry here.
 template <class B>
-std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledLoad>& loads);
-
-/// Builds the pressures that follow the body on a level's mesh at rest: given ones, and those of
-/// fluids in it.
-template <class B>
-std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh,
-                                            const LevelConstants& constants, int level);
+std::vector<std::unique_ptr<ForceTerm<B>>> make_force_terms(const Body& body, const TetMesh& mesh,
+                                                            const LevelConstants& constants,
+                                                            const std::vector<AssembledLoad>& loads,
+                                                            int level);
 
 }  // namespace plica

@@ -88,30 +88,4 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
   return cavity;
 }
 
-template <class B>
-double cavity_eigenvalue(const Level<B>& level) {
-  const auto inverse_mass = on_host(level.model.inverse_mass);
-  double sum = 0;
-  for (const FollowerLoad<B>& load : level.followers) {
-    if (!load.cavity) continue;
-    const double stiffness =
-        load.cavity->stiffness() * std::pow(std::max(1.0, load.cavity->ratio), 4.0 / 3);
-    const auto vertex = on_host(load.vertex), first = on_host(load.first),
-               second = on_host(load.second), third = on_host(load.third);
-    const auto rest = on_host(load.rest);
-    const auto at = [&](int i) { return Point(rest(i, 0), rest(i, 1), rest(i, 2)); };
-    for (int i = 0; i < load.count; ++i) {
-      Point a = Point::Zero();
-      for (int t = first(i); t < first(i + 1); ++t)
-        a += (at(second(t)) - at(i)).cross(at(third(t)) - at(i)) / 6;
-      sum += stiffness * a.squaredNorm() * static_cast<double>(inverse_mass(vertex(i)));
-    }
-  }
-  return sum;
-}
-
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template double cavity_eigenvalue<Backend<Real, Exec>>(const Level<Backend<Real, Exec>>&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
-
 }  // namespace plica

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/load.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <vector>
@@ -24,11 +24,5 @@ Point centre_of(const TetMesh& mesh, const std::vector<std::array<int, 3>>& tria
 Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
                    const std::vector<std::array<int, 3>>& triangles, const std::vector<char>& still,
                    const Selecting& who);
-
-/// Returns an upper bound of what the fluids in a level's cavities add to its squared frequencies
-/// [1/s^2]. The stiffness of one fluid is K a a^T / V with a = dV/dx. a is as large as areas: those
-/// at rest, grown to `ratio` alike in all directions where that is above 1.
-template <class B>
-double cavity_eigenvalue(const Level<B>& level);
 
 }  // namespace plica

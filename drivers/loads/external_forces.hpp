@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 #include <plica/core/device_array.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/kernels/linear/system_kernels.hpp>
 
 namespace plica {

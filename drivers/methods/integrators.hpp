@@ -10,7 +10,7 @@
 namespace plica {
 
 template <class B>
-struct Level;
+struct LevelData;
 template <class B>
 class Integrator;
 template <class B>
@@ -36,7 +36,7 @@ struct SymplecticEuler {
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct CentralDifference {
@@ -46,7 +46,7 @@ struct CentralDifference {
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 /// Forward Euler, with |1 + h s|^2 = 1 - h c + h^2 w^2 for a mode e^(s t). Undamped, a mode grows
@@ -58,7 +58,7 @@ struct ForwardEuler {
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.growth = 1, .power = 2, .damping = 2};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 /// Runge-Kutta method of order 2, with |R|^2 = 1 + (h w)^4/4 - h c. Undamped, a mode grows at every
@@ -71,7 +71,7 @@ struct Rk2 {
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.growth = 0.25, .power = 4, .damping = 2};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 /// Runge-Kutta method of order 4, stable for h < 2.83/w undamped; motion near that limit decays.
@@ -84,7 +84,7 @@ struct Rk4 {
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2.78, .damping = 2.78};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct ImplicitEuler {
@@ -94,7 +94,7 @@ struct ImplicitEuler {
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct Newmark {
@@ -107,7 +107,7 @@ struct Newmark {
   /// Returns true: it conserves energy on the linear problem.
   static constexpr bool conserves(const ImplicitOptions&) { return true; }
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct Bdf2 {
@@ -118,7 +118,7 @@ struct Bdf2 {
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct Sdirk2 {
@@ -129,7 +129,7 @@ struct Sdirk2 {
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct GeneralizedAlpha {
@@ -144,7 +144,7 @@ struct GeneralizedAlpha {
     return options.rho_infinity == 1.0;
   }
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 struct VCycleEuler {
@@ -157,7 +157,7 @@ struct VCycleEuler {
   /// linear solver, whatever integration.implicit.solver says
   static constexpr const char* linear_solver = "v_cycle";
   template <class B>
-  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+  static std::unique_ptr<Integrator<B>> make(const LevelData<B>&, const IntegratorParts<B>&);
 };
 
 /// All integrators. A new one needs an entry above, its name here, and its source.

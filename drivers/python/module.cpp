@@ -373,7 +373,7 @@ NB_MODULE(_plica, m) {
   m.def("keys", [] {
     std::vector<std::vector<std::string>> rows;
     for (const app::KeyInfo& key : app::scene_keys())
-      rows.push_back({key.path, key.expects, key.otherwise, key.help});
+      rows.push_back({key.path, key.type_text, key.otherwise, key.help});
     return rows;
   });
   m.def("parse_every", [](const std::string& name, const std::string& text) {

@@ -18,7 +18,6 @@
 #include <plica/drivers/level/build_level.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
-#include <plica/drivers/loads/cavity.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/run/validate.hpp>
@@ -83,7 +82,7 @@ class HierarchyBuilder {
     phase("planning the steps", [&] { plan(); });
     if (starts_deformed(problem_.body.initial)) deform();
     built_.stepper->start(*built_.hierarchy);
-    for (const auto& level : built_.hierarchy->levels) level.remember(0);
+    for (const auto& level : built_.hierarchy->levels) level.accept_state(0);
     return std::move(built_);
   }
 
@@ -102,8 +101,8 @@ class HierarchyBuilder {
   std::size_t meshes_, levels_;  // number of meshes that are used; of levels that are integrated
   TriangleSurface surface_;      // the placed surface
   std::vector<LevelConstants> constants_;
-  std::vector<std::vector<AssembledLoad>> loads_;        // per level
-  std::vector<std::vector<FollowerLoad<B>>> followers_;  // per level
+  std::vector<std::vector<AssembledLoad>> loads_;                  // per level
+  std::vector<std::vector<std::unique_ptr<ForceTerm<B>>>> terms_;  // per level
   std::vector<std::unique_ptr<BodyLocator>> locators_;
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
@@ -131,7 +130,7 @@ class HierarchyBuilder {
       if (i < levels_) {
         loads_.push_back(assemble_loads(body, mesh, constants_[i], level,
                                         i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
-        followers_.push_back(follower_loads<B>(body, mesh, constants_[i], level));
+        terms_.push_back(make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
       }
       for (Point& p : mesh.vertices) p += shift;
     }
@@ -208,9 +207,7 @@ class HierarchyBuilder {
 
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
-    level.loads = device_loads<B>(problem_.body, loads_[i]);
-    level.followers = followers_[i];
+    LevelData<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<typename B::Real> limit;
       for (double edge : local_edge_lengths(mesh))
@@ -224,6 +221,7 @@ class HierarchyBuilder {
       level.surface = build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock,
                                           static_cast<int>(i));
+    built_.hierarchy->levels.back().terms = std::move(terms_[i]);
   }
 
   /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
@@ -283,7 +281,7 @@ class HierarchyBuilder {
 
   void connect(std::size_t i) {
     const Outside rule = outside_rule(problem_.integration);
-    Level<B>& level = built_.hierarchy->levels[i];
+    LevelData<B>& level = built_.hierarchy->levels[i];
     const Embedding &down = down_[i], &up = up_[i];
     if (rule == Outside::keep && down.misses + up.misses > 0)
       throw InputError("integration.outside is keep, but " + std::to_string(down.misses) +
@@ -338,7 +336,7 @@ class HierarchyBuilder {
   /// Finds level i's critical step, and makes its integrator and the forces on it.
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
-    SolverLevel<B>& level = built_.hierarchy->levels[i];
+    Level<B>& level = built_.hierarchy->levels[i];
     // not the level's state, in which a given motion may start elsewhere
     const auto rest =
         zeros<Vectors<B>>("plica::rest", static_cast<std::size_t>(level.model.vertices));
@@ -349,7 +347,7 @@ class HierarchyBuilder {
       report.explicit_integrator = Kind::is_explicit;
       report.critical_step = critical_step<B>(
           level.exec(), K, Kind::is_explicit ? Kind::limit : SymplecticEuler::limit,
-          damping_limit(constants_[i]), eigenvalues_[i], cavity_eigenvalue<B>(level));
+          damping_limit(constants_[i]), eigenvalues_[i], level.term_frequency());
       ImplicitOptions implicit = problem_.integration.implicit;
       implicit.newton_iterations = newton_iterations(implicit, report.integrator);
       implicit.rho_infinity = rho_infinity(implicit, contact_ != nullptr);

@@ -123,7 +123,7 @@ std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
   for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // coarsest first, as levels act
-    const Level<B>& level = (*built.hierarchy)[i];
+    const LevelData<B>& level = (*built.hierarchy)[i];
     if (level.flags.evaluation.extent(0) == 0) continue;
     const auto copy = [](const auto& view) {
       return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);

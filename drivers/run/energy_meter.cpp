@@ -21,7 +21,7 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
   for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
-  const Level<B>& level = hierarchy[0];
+  const LevelData<B>& level = hierarchy[0];
   blocks_ = BlockSums<B>(std::max(
       {level.model.vertices, static_cast<int>(level.partial.extent(0)), level.surface.points}));
 }
@@ -35,7 +35,7 @@ std::array<double, 6> EnergyMeter<B>::read() const {
 template <class B>
 MotionReport EnergyMeter<B>::motion(const Point& drift) const {
   using Term = MotionEnergies<B>;
-  const Level<B>& level = hierarchy_[0];
+  const LevelData<B>& level = hierarchy_[0];
   reduce<B, 6, Term, MotionSums>(
       hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
       Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}},
@@ -51,7 +51,7 @@ MotionReport EnergyMeter<B>::motion(const Point& drift) const {
 template <class B>
 Energies EnergyMeter<B>::all(double time) const {
   const auto& exec = hierarchy_.exec();
-  const SolverLevel<B>& level = hierarchy_[0];
+  const Level<B>& level = hierarchy_[0];
   Energies e = motion(Point::Zero()).energies;
   if (level.viscosity) level.viscosity->look_at_once(exec);
   level.elasticity().energy(exec, level, level.state.u);

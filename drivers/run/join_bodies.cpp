@@ -13,25 +13,25 @@ namespace {
 
 using NamedBody = std::pair<std::string, Body>;
 
-std::string shown(const std::string& value) { return value; }
-std::string shown(double value) { return std::to_string(value); }
-std::string shown(const std::vector<std::string>& values) {
+std::string to_text(const std::string& value) { return value; }
+std::string to_text(double value) { return std::to_string(value); }
+std::string to_text(const std::vector<std::string>& values) {
   return std::accumulate(values.begin(), values.end(), std::string(),
                          [](const std::string& all, const std::string& one) {
                            return all.empty() ? one : all + ", " + one;
                          });
 }
-std::string shown(const std::optional<bool>& value) {
+std::string to_text(const std::optional<bool>& value) {
   return !value ? "left out" : *value ? "true" : "false";
 }
-std::string shown(const std::optional<std::string>& value) { return value.value_or("left out"); }
+std::string to_text(const std::optional<std::string>& value) { return value.value_or("left out"); }
 
 /// Throws InputError where two bodies differ in options that a simulation has once.
 void expect_alike(const NamedBody& first, const NamedBody& other) {
   const auto same = [&](const char* key, const auto& a, const auto& b) {
     if (a != b)
-      throw InputError("bodies." + other.first + "." + key + " is " + shown(b) + ", of bodies." +
-                       first.first + " " + shown(a) +
+      throw InputError("bodies." + other.first + "." + key + " is " + to_text(b) + ", of bodies." +
+                       first.first + " " + to_text(a) +
                        "; bodies can differ in the values of a law, expected the same " + key);
   };
   const Body &a = first.second, &b = other.second;

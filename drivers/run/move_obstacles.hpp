@@ -26,17 +26,17 @@ void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double en
 /// Makes an obstacle grasp what is near it in the present state (`closed`), or release all of it.
 template <class B>
 void hold(Hierarchy<B>& hierarchy, int obstacle, double time, bool closed) {
-  SolverLevel<B>& level = hierarchy[0];
+  Level<B>& level = hierarchy[0];
   if (closed)
     level.response().grasp(hierarchy.exec(), level, time, obstacle);
   else
     level.contact()->release(hierarchy.exec(), obstacle);
-  for (SolverLevel<B>& each : hierarchy.levels) each.integrator->forget();
+  for (Level<B>& each : hierarchy.levels) each.integrator->reset_history();
 }
 
 /// Makes obstacles grasp and release at the start of a macro step, as their options ask for in it.
 template <class B>
-void hold_as_asked(Hierarchy<B>& hierarchy, double start, double span) {
+void apply_grasp_schedule(Hierarchy<B>& hierarchy, double start, double span) {
   constexpr double rounding = 1e-9;  // part of the step
   const Contact<B>* contact = hierarchy[0].contact();
   const auto now = [&](double time) {
@@ -70,9 +70,9 @@ inline void check_couplings(const ContactOptions& contact, double step) {
       const double most = inertia / (step * step);
       if (stiffness <= most) return;
       throw InputError("contact.obstacles." + std::to_string(i) + ".coupling." + key + " is " +
-                       unit.shown(stiffness) + "; expected at most " + unit.shown(most) +
+                       unit.to_text(stiffness) + "; expected at most " + unit.to_text(most) +
                        ", which is its " + what + " over the square of the macro step, " +
-                       keys::Quantity{keys::duration}.shown(step) +
+                       keys::Quantity{keys::duration}.to_text(step) +
                        ": a softer coupling, more of it, or a shorter integration.macro_step");
     };
     if (o.mass)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/drivers/elastic/elements.hpp>
-#include <plica/drivers/run/simulation_inside.hpp>
+#include <plica/drivers/run/simulation_impl.hpp>
 
 namespace plica {
 
@@ -60,7 +60,7 @@ std::string holding_parts(const ContactOptions& contact) {
     if (!grasp) continue;
     all += (all.empty() ? "" : "; ") + obstacle_name(contact, o);
     if (grasp->from.empty()) all += " by a program";
-    const auto time = [](double t) { return keys::Quantity{keys::duration}.shown(t); };
+    const auto time = [](double t) { return keys::Quantity{keys::duration}.to_text(t); };
     for (std::size_t i = 0; i < grasp->from.size(); ++i) {
       all += (i > 0 ? ", from " : " from ") + time(grasp->from[i]);
       if (i < grasp->until.size()) all += " until " + time(grasp->until[i]);
@@ -89,7 +89,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
     for (const auto& part : built.hierarchy->levels) total += of_level(part);
     return total;
   };
-  using L = SolverLevel<B>;
+  using L = Level<B>;
   std::vector<Part> parts;
   const auto add = [&](const std::string& name, bool in, const std::string& yes,
                        const std::string& no, std::size_t size) {
@@ -148,9 +148,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for",
       sum([](const L& l) {
         std::size_t total = 0;
-        for (const auto& load : l.loads) total += bytes(load.vertex, load.force);
-        for (const auto& load : l.followers)
-          total += bytes(load.vertex, load.rest, load.first, load.second, load.third);
+        for (const auto& term : l.terms) total += term->bytes();
         return total;
       }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,

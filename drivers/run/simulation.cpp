@@ -3,7 +3,7 @@
 // simulation_views.cpp, its set-up is in build_hierarchy.cpp.
 //
 // Ownership. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each
-// SolverLevel owns its data (rest shape, masses, state, work arrays), the forces on it and its
+// Level owns its data (rest shape, masses, state, work arrays), the forces on it and its
 // integrator. A Stepper decides how the levels take a macro step together; it owns what belongs to
 // no single level. Nothing points upwards: a level knows of no stepper, a stepper of no simulation.
 //
@@ -16,7 +16,7 @@
 //         interpolate from the coarser one  kernels/transfer/transfer.hpp
 //         integrate its share               cycles/shared_step.hpp
 //           Integrator::advance             time/explicit.cpp
-//             SolverLevel::evaluate         level/solver_level.cpp
+//             Level::evaluate         level/level.cpp
 //               elastic forces              elastic/elasticity.cpp, and the kernels of the material
 //               loads, contact, the caller's
 //             update velocity and place     kernels/time/updates.hpp
@@ -39,7 +39,7 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
-#include <plica/drivers/run/simulation_inside.hpp>
+#include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
 
 namespace plica {
@@ -66,12 +66,12 @@ const Problem& steppable(const Problem& p) {
 
 template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
-    : inside_(std::make_unique<Inside>(problem, exec)) {}
+    : impl_(std::make_unique<Impl>(problem, exec)) {}
 template <class B>
 Simulation<B>::~Simulation() = default;
 
 template <class B>
-Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
+Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec)
     : problem(steppable(p)),
       built(build_hierarchy<B>(problem, exec)),
       queue(exec),
@@ -81,7 +81,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   check_couplings(p.contact, built.macro_step);
   problem.body.levels.clear();
   rest.resize(built.hierarchy->levels.size());
-  if (built.stepper->can_repair()) older.emplace();
+  if (built.stepper->can_repair()) fallback.emplace();
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                               [](const ObstacleOptions& o) { return moves(o); });
@@ -94,7 +94,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   if (control.halves() && wrench.extent(0) > 0)
     wrench_sum = zeros<Doubles<B>>("plica::contact.wrench_sum", wrench.extent(0));
   linear = !find_material(p.body.material.model)->rotation_invariant;
-  keep_anew();
+  reset_snapshots();
   open_budget();
 }
 
@@ -102,7 +102,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
 
 template <class B>
 void Simulation<B>::step() {
-  Inside& s = *inside_;
+  Impl& s = *impl_;
   s.residual = 0;
   const Kokkos::Timer timer;
   // the mean force of a short step oscillates, so that of the last whole step stays
@@ -122,18 +122,18 @@ template <class B>
 void Simulation<B>::end_at(double time) {
   if (std::isnan(time))
     throw InputError("end_at: the time is no number; expected one, or infinity for no end");
-  inside_->end = time;
+  impl_->end = time;
 }
 
 /// Returns whether the next macro step would go beyond the end that a caller has set.
 template <class B>
-bool Simulation<B>::Inside::reaches_end() const {
+bool Simulation<B>::Impl::reaches_end() const {
   return time < end &&
          origin + static_cast<double>(steps + 1) * built.macro_step > (1 + time_rounding) * end;
 }
 
 template <class B>
-double Simulation<B>::Inside::next_span() const {
+double Simulation<B>::Impl::next_span() const {
   if (reaches_end()) return end - time;
   const double whole = origin + static_cast<double>(steps) * built.macro_step;
   return built.macro_step - (time - whole);  // time - whole is 0, except after a shorter step
@@ -141,19 +141,19 @@ double Simulation<B>::Inside::next_span() const {
 
 /// Sets the time after a macro step, and counts it unless it was made shorter.
 template <class B>
-void Simulation<B>::Inside::arrive() {
+void Simulation<B>::Impl::arrive() {
   time = reaches_end() ? end : origin + static_cast<double>(++steps) * built.macro_step;
 }
 
 /// Takes a macro step or a part of it. The caller sets the time.
 template <class B>
-void Simulation<B>::Inside::advance(double from, double span) {
+void Simulation<B>::Impl::advance(double from, double span) {
   // launch each kernel alone: a profiler is to see every one, or the clock waits for each stage
   const bool apart = !graphs || hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
   const typename LaunchQueue<Exec>::Scope gather(apart ? nullptr : &queue);
   if (const Contact<B>* contact = hierarchy()[0].contact()) motions.go_on(*contact, from);
   hierarchy().begin_macro_step(span / built.macro_step);
-  hold_as_asked(hierarchy(), from, span);
+  apply_grasp_schedule(hierarchy(), from, span);
   built.stepper->step(hierarchy(), from, span);
   move_obstacles(hierarchy(), wrench, from + span, span);
   launch_gathered<Exec>();
@@ -174,21 +174,21 @@ std::optional<Diagnosis> Simulation<B>::step_checked() {
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
-  Inside& s = *inside_;
+  Impl& s = *impl_;
   const auto bad = s.examine();
   if (bad) return bad;
   s.keep_at_times();
-  s.built.stepper->lengthen(s.hierarchy(), s.built.macro_step, s.steps);
+  s.built.stepper->regrow(s.hierarchy(), s.built.macro_step, s.steps);
   return {};
 }
 
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
+std::optional<Diagnosis> Simulation<B>::Impl::examine(double part) {
   if (budget_opens) open_budget();
   const MotionReport now = meter.motion(drift);
   const LevelReport& finest = built.reports.front();
   const bool lost = built.stepper->lost_stability(hierarchy(), now.about_mean),
-             late = built.stepper->sees_late();
+             late = built.stepper->detects_late();
   if (lost && !late) return failure("stability");
   const double substep =
       finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
@@ -201,8 +201,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
 /// Returns the first check that fails. `motion`: largest displacement of a vertex in a sub-step,
 /// relative to the body, over its edge.
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now,
-                                                             double motion) {
+std::optional<Diagnosis> Simulation<B>::Impl::find_failure(const MotionReport& now, double motion) {
   if (control.halves()) look_at_end();
   if (auto inverted = find_inverted<B>(built)) return inverted->motion_over_edge = motion, inverted;
   const Energies& e = now.energies;
@@ -237,15 +236,15 @@ std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport&
 /// force would flag them: early enough to stop, but too late to take this step again. In the same
 /// way, an element may have taken up energy that nothing has put in.
 template <class B>
-void Simulation<B>::Inside::look_at_end() {
-  const SolverLevel<B>& level = hierarchy()[0];
+void Simulation<B>::Impl::look_at_end() {
+  const Level<B>& level = hierarchy()[0];
   if (level.flags.evaluation.extent(0) > 0)
     level.elasticity().force(level.exec(), level, level.state, std::numeric_limits<int>::max());
 }
 
 template <class B>
-Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level,
-                                         const std::string& reason) {
+Diagnosis Simulation<B>::Impl::failure(const std::string& kind, double motion, int level,
+                                       const std::string& reason) {
   Diagnosis d = locate_failure<B>(kind, built, kept.levels, level, reason);
   d.motion_over_edge = motion;
   return d;

@@ -231,8 +231,8 @@ class Simulation {
   void time_stages(bool on);
 
  private:
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 
   bool repair(const Diagnosis& bad);
 };

@@ -3,13 +3,13 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
-#include <plica/drivers/run/simulation_inside.hpp>
+#include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
 
 namespace plica {
 
 template <class B>
-const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
+const Contact<B>& Simulation<B>::Impl::contact_with(int obstacle) const {
   const int count = static_cast<int>(problem.contact.obstacles.size());
   if (obstacle < 0 || obstacle >= count)
     throw InputError(text("there is no obstacle ", obstacle, "; the problem has ", count,
@@ -22,25 +22,25 @@ const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
 
 template <class B>
 void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
-  inside_->contact_with(obstacle);  // throws where there is no such obstacle
+  impl_->contact_with(obstacle);  // throws where there is no such obstacle
   validate_motion(motion);
-  inside_->move(obstacle, motion);
+  impl_->move(obstacle, motion);
 }
 template <class B>
 void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& turn) {
-  inside_->contact_with(obstacle);
+  impl_->contact_with(obstacle);
   const auto number = static_cast<std::size_t>(obstacle);
-  const ObstacleOptions& its = inside_->problem.contact.obstacles[number];
+  const ObstacleOptions& its = impl_->problem.contact.obstacles[number];
   if (turn && its.mass && its.inertia.empty())
-    throw InputError(obstacle_name(inside_->problem.contact, number) +
+    throw InputError(obstacle_name(impl_->problem.contact, number) +
                      " has mass, and does not turn; expected " + "contact.obstacles." +
                      std::to_string(obstacle) + " without mass, or with inertia");
   if (turn) validate_turn(*turn);
-  inside_->move(obstacle, turn);
+  impl_->move(obstacle, turn);
 }
 template <class B>
-void Simulation<B>::Inside::move(int obstacle, const typename MotionLog<B>::Said& how) {
-  motions.say(contact_with(obstacle), time, obstacle, how);
+void Simulation<B>::Impl::move(int obstacle, const typename MotionCommands<B>::Command& how) {
+  motions.record(contact_with(obstacle), time, obstacle, how);
   budget_known = false;
 }
 
@@ -53,79 +53,79 @@ void expect_finite_move(const char* name, const Point& value) {
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
   expect_finite_move("displacement", displacement);
-  const double now = inside_->time;
+  const double now = impl_->time;
   set_obstacle_motion(obstacle, PathMotion{{{now, obstacle_displacement(obstacle)},
-                                            {now + inside_->next_span(), displacement}}});
+                                            {now + impl_->next_span(), displacement}}});
 }
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
   expect_finite_move("displacement", displacement), expect_finite_move("rotation", rotation);
-  const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
+  const ObstaclePose<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
   const Vec3<double>& about = place.pose->turn.turned ? place.pose->turn.centre : place.origin;
   const Point before = obstacle_rotation(obstacle);
   const Point way = rotation_vector(rotation_by(rotation) * rotation_by(-before));
-  const double now = inside_->time, angle = way.norm();
+  const double now = impl_->time, angle = way.norm();
   set_obstacle_turn(
       obstacle, Turn{angle > 0 ? way : Point(Point::UnitZ()), Point(about[0], about[1], about[2]),
-                     before, PathTurn{{{now, 0}, {now + inside_->next_span(), angle}}}});
+                     before, PathTurn{{{now, 0}, {now + impl_->next_span(), angle}}}});
   move_obstacle(obstacle, displacement);
 }
 template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {
   const Vec3<double> d =
-      inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->displacement;
+      impl_->contact_with(obstacle).place(obstacle, impl_->time).pose->displacement;
   return {d[0], d[1], d[2]};
 }
 template <class B>
 Point Simulation<B>::obstacle_rotation(int obstacle) const {
-  const Attitude turn = inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->turn;
+  const Attitude turn = impl_->contact_with(obstacle).place(obstacle, impl_->time).pose->turn;
   return turn.turned ? rotation_vector(turn.rotation) : Point(Point::Zero());
 }
 template <class B>
 Point Simulation<B>::obstacle_origin(int obstacle) const {
-  const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
+  const ObstaclePose<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
   const Vec3<double> at = place.pose->placed(place.origin);
   return {at[0], at[1], at[2]};
 }
 
 template <class B>
-void Simulation<B>::Inside::hold_now(int obstacle, bool closed) {
+void Simulation<B>::Impl::hold_now(int obstacle, bool closed) {
   if (!contact_with(obstacle).grasp_options(obstacle))
     throw InputError(
         text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),
              " cannot hold anything; expected contact.obstacles.", obstacle, ".grasp"));
   hold(hierarchy(), obstacle, time, closed);
-  keep_anew();
+  reset_snapshots();
 }
 template <class B>
 void Simulation<B>::grasp(int obstacle) {
-  inside_->hold_now(obstacle, true);
+  impl_->hold_now(obstacle, true);
 }
 template <class B>
 void Simulation<B>::release(int obstacle) {
-  inside_->hold_now(obstacle, false);
+  impl_->hold_now(obstacle, false);
 }
 template <class B>
 std::vector<HeldBy> Simulation<B>::held() const {
   std::vector<HeldBy> all;
-  const auto& obstacles = inside_->problem.contact.obstacles;
+  const auto& obstacles = impl_->problem.contact.obstacles;
   for (std::size_t o = 0; o < obstacles.size(); ++o)
     if (const int number = static_cast<int>(o); obstacles[o].grasp)
-      all.push_back({obstacle_name(inside_->problem.contact, o),
-                     inside_->contact_with(number).held_by(inside_->hierarchy().exec(), number)});
+      all.push_back({obstacle_name(impl_->problem.contact, o),
+                     impl_->contact_with(number).held_by(impl_->hierarchy().exec(), number)});
   return all;
 }
 
 template <class B>
 int Simulation<B>::torn_attachments() const {
-  const Contact<B>* contact = inside_->hierarchy()[0].contact();
-  return contact ? contact->torn(inside_->hierarchy().exec()) : 0;
+  const Contact<B>* contact = impl_->hierarchy()[0].contact();
+  return contact ? contact->torn(impl_->hierarchy().exec()) : 0;
 }
 
 template <class B>
 std::vector<Wrench> Simulation<B>::wrenches() const {
-  const std::vector<double> w = host_values(inside_->hierarchy().exec(), inside_->wrench);
-  const std::vector<std::string> names = wrench_names(inside_->problem);
+  const std::vector<double> w = host_values(impl_->hierarchy().exec(), impl_->wrench);
+  const std::vector<std::string> names = wrench_names(impl_->problem);
   std::vector<Wrench> all;
   for (std::size_t o = 0; 6 * o < w.size(); ++o)
     all.push_back({names[o],
@@ -136,34 +136,34 @@ std::vector<Wrench> Simulation<B>::wrenches() const {
 
 template <class B>
 std::vector<double> Simulation<B>::contact_depths() const {
-  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact()) return {};
   std::vector<double> all =
-      finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
+      finest.response().depths(impl_->hierarchy().exec(), finest, impl_->time);
   all.resize(static_cast<std::size_t>(finest.contact()->obstacles()));
   return all;
 }
 
 template <class B>
 double Simulation<B>::pair_depth() const {
-  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact() || !finest.contact()->has_pairs()) return 0;
-  return finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time).back();
+  return finest.response().depths(impl_->hierarchy().exec(), finest, impl_->time).back();
 }
 
 template <class B>
 double Simulation<B>::friction_work() const {
   double sum = 0;
-  for (const SolverLevel<B>& level : inside_->hierarchy().levels)
-    if (level.contact()) sum += level.response().friction_work(inside_->hierarchy().exec());
+  for (const Level<B>& level : impl_->hierarchy().levels)
+    if (level.contact()) sum += level.response().friction_work(impl_->hierarchy().exec());
   return sum;
 }
 
 template <class B>
 std::vector<double> Simulation<B>::slipping() const {
-  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact()) return {};
-  return finest.response().slipping(inside_->hierarchy().exec());
+  return finest.response().slipping(impl_->hierarchy().exec());
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

@@ -5,7 +5,7 @@
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
-#include <plica/drivers/run/simulation_inside.hpp>
+#include <plica/drivers/run/simulation_impl.hpp>
 
 namespace plica {
 
@@ -25,7 +25,7 @@ constexpr int most_repairs = 8;
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
-  Inside& s = *inside_;
+  Impl& s = *impl_;
   std::optional<Diagnosis> still = bad;
   if (s.built.stepper->repairs(bad) && repair(bad)) still.reset();
   if (still && s.control.halves()) still = s.retry(*still);
@@ -39,10 +39,10 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
 /// not help.
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
-  Inside& s = *inside_;
+  Impl& s = *impl_;
   const Stepper<B>& stepper = *s.built.stepper;
-  const bool sees_late = stepper.sees_late();
-  const bool late = bad.kind == "stability" && sees_late;  // the last snapshot is no better
+  const bool detects_late = stepper.detects_late();
+  const bool late = bad.kind == "stability" && detects_late;  // the last snapshot is no better
   const double there = s.time;
   const auto go_on = [&] {
     while (s.time < there) {
@@ -55,12 +55,13 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     return !s.examine();
   };
   for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
-    if (attempt == 1 && s.older->steps == s.kept.steps) continue;
-    s.go_back(attempt == 0 ? s.kept : *s.older);
+    if (attempt == 1 && s.fallback->steps == s.kept.steps) continue;
+    s.restore_snapshot(attempt == 0 ? s.kept : *s.fallback);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
     // Explicit steps cannot continue what has grown in the last snapshot, and may take very long to
     // fail from it.
-    if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
+    if (attempt == 0 && !detects_late && stepper.detects_late())
+      s.restore_snapshot(*s.fallback), attempt = 1;
     if (go_on()) return true;
   }
   return false;
@@ -69,9 +70,9 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
 /// Steps again from the last snapshot to the present time, in shorter parts. Returns a diagnosis
 /// where that does not help.
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
+std::optional<Diagnosis> Simulation<B>::Impl::retry(const Diagnosis& bad) {
   const double there = time;
-  go_back(kept);
+  restore_snapshot(kept);
   ++rejected;
   // A step that is the only one since the snapshot is known to be bad in this division.
   if (there <= time + (1 + time_rounding) * next_span() && !control.halve()) return bad;
@@ -95,7 +96,7 @@ struct AddPart {
 /// of them, else it must only be solved. A part that is not solved is halved as long as that leaves
 /// less unsolved. The shortest part is taken as it is.
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
+std::optional<Diagnosis> Simulation<B>::Impl::cover(bool checks) {
   constexpr double all = std::numeric_limits<double>::infinity();
   const Exec& exec = hierarchy().exec();
   const double span = next_span();
@@ -110,7 +111,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
     if (bad || (left > 0 && left < least)) {
       if (control.halve()) {
         ++rejected, least = bad ? all : left;
-        go_back(*part_start);
+        restore_snapshot(*part_start);
         continue;
       }
       if (bad) return ++rejected, bad;
@@ -127,7 +128,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
 }
 
 template <class B>
-double Simulation<B>::Inside::left_unsolved() const {
+double Simulation<B>::Impl::left_unsolved() const {
   double most = 0;
   for (const auto& level : built.hierarchy->levels)
     most = std::max(most, level.integrator->unsolved());
@@ -138,31 +139,30 @@ double Simulation<B>::Inside::left_unsolved() const {
 
 template <class B>
 void Simulation<B>::on_repeated_step(std::function<void()> call) {
-  inside_->after_repeated = std::move(call);
+  impl_->after_repeated = std::move(call);
 }
 
 template <class B>
 long Simulation<B>::earliest_kept() const {
-  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps)
-                        : inside_->kept.steps;
+  return impl_->fallback ? std::min(impl_->fallback->steps, impl_->kept.steps) : impl_->kept.steps;
 }
 
 template <class B>
 void Simulation<B>::return_to_last_good() {
-  inside_->go_back(inside_->kept);
+  impl_->restore_snapshot(impl_->kept);
 }
 
 template <class B>
-void Simulation<B>::Inside::keep_at_times() {
+void Simulation<B>::Impl::keep_at_times() {
   if (!control.halves() && steps - kept.steps < keep_every) return;
-  if (older && kept.steps - older->steps >= long_ago) std::swap(kept, *older);
+  if (fallback && kept.steps - fallback->steps >= long_ago) std::swap(kept, *fallback);
   keep(kept);
-  motions.forget_before(older ? older->time : kept.time);
+  motions.forget_before(fallback ? fallback->time : kept.time);
 }
 
 /// Takes a snapshot of the present state and time.
 template <class B>
-void Simulation<B>::Inside::keep(Kept& to) {
+void Simulation<B>::Impl::keep(Snapshot& to) {
   const Exec& exec = hierarchy().exec();
   const auto& levels = hierarchy().levels;
   if (to.levels.empty())
@@ -183,66 +183,66 @@ void Simulation<B>::Inside::keep(Kept& to) {
 
 /// Replaces all snapshots by the present state: nothing can go back to a state before it.
 template <class B>
-void Simulation<B>::Inside::keep_anew() {
+void Simulation<B>::Impl::reset_snapshots() {
   keep(kept);
-  if (older) keep(*older);
-  motions.forget();
+  if (fallback) keep(*fallback);
+  motions.reset_history();
 }
 
 /// Adds the state to the history of viscous stresses, before and after it is changed from outside.
 template <class B>
-void Simulation<B>::Inside::remember() {
-  for (const auto& level : hierarchy().levels) level.remember(time);
+void Simulation<B>::Impl::accept_state() {
+  for (const auto& level : hierarchy().levels) level.accept_state(time);
 }
 
 /// Restores a snapshot of all levels. Coarser levels then start again from level 0's state.
 template <class B>
-void Simulation<B>::Inside::go_back(const Kept& to) {
+void Simulation<B>::Impl::restore_snapshot(const Snapshot& to) {
   copy_memory(hierarchy().exec(), to.memory, memory);
   for (std::size_t i = 0; i < to.levels.size(); ++i)
     hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
   for (std::size_t i = 0; i < to.stress.size(); ++i)
-    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i],
-                                              to.stress[i]);
+    hierarchy().levels[i].viscosity->restore(hierarchy().exec(), hierarchy().levels[i],
+                                             to.stress[i]);
   time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
   hierarchy().clear_flags();
-  hierarchy().forget();
+  hierarchy().reset_history();
   for (std::size_t i = 0; i < to.contact.size(); ++i) {
-    SolverLevel<B>& level = hierarchy().levels[i];
-    level.response().put_back(hierarchy().exec(), level, to.contact[i]);
+    Level<B>& level = hierarchy().levels[i];
+    level.response().restore(hierarchy().exec(), level, to.contact[i]);
   }
   if (const Contact<B>* contact = hierarchy()[0].contact()) {
     contact->take_lost(hierarchy().exec());
-    motions.go_back(*contact, time);
+    motions.restore_snapshot(*contact, time);
   }
   built.stepper->begin(hierarchy());
 }
 
 /// Makes everything follow level 0's state, which was replaced: other levels, snapshots, budget.
 template <class B>
-void Simulation<B>::Inside::restart() {
+void Simulation<B>::Impl::restart() {
   hierarchy().clear_flags();
-  hierarchy().forget();
+  hierarchy().reset_history();
   built.stepper->begin(hierarchy());
-  remember();
-  keep_anew();
+  accept_state();
+  reset_snapshots();
   budget_opens = true;
 }
 
 template <class B>
-void Simulation<B>::Inside::open_budget() {
+void Simulation<B>::Impl::open_budget() {
   const Energies e = meter.all(time);
   start = put_in = e.total();
   drift = meter.motion(Point::Zero()).drift;
   kept.put_in = put_in, kept.drift = drift;
-  if (older) older->put_in = put_in, older->drift = drift;
+  if (fallback) fallback->put_in = put_in, fallback->drift = drift;
   budget_opens = false;
 }
 
 template <class B>
 void Simulation<B>::set_state(const std::vector<Point>& displacement,
                               const std::vector<Point>& velocity) {
-  Inside& s = *inside_;
+  Impl& s = *impl_;
   const State<B>& state = s.hierarchy()[0].state;
   const auto expect = [&](const std::vector<Point>& all, const char* what) {
     if (all.size() != state.u.extent(0))
@@ -258,7 +258,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement,
     plica::copy(s.hierarchy().exec(), to,
                 to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
   };
-  s.remember();
+  s.accept_state();
   s.hierarchy().exec().fence("plica::set_state");
   copy(displacement, state.u, "displacements"), copy(velocity, state.v, "velocities");
   s.restart();
@@ -268,13 +268,13 @@ template <class B>
 void Simulation<B>::set_time(double time) {
   if (!std::isfinite(time))
     throw InputError("set_time: the time is " + number(time) + "; expected a finite one");
-  Inside& s = *inside_;
-  s.remember();
+  Impl& s = *impl_;
+  s.accept_state();
   for (const auto& level : s.hierarchy().levels)
     if (level.viscosity) level.viscosity->set_time(time);
   s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
-  s.hierarchy().forget();
-  s.keep_anew();
+  s.hierarchy().reset_history();
+  s.reset_snapshots();
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

@@ -29,18 +29,18 @@ void check_together(const std::string&, const T&) {}
 void check_together(const std::string& path, const Box& box) {
   for (int k = 0; k < 3; ++k)
     if (box.min[k] > box.max[k])
-      throw InputError(path + ".min is " + Vector{length}.shown(box.min) +
-                       "; expected at most max, " + Vector{length}.shown(box.max));
+      throw InputError(path + ".min is " + Vector{length}.to_text(box.min) +
+                       "; expected at most max, " + Vector{length}.to_text(box.max));
 }
 
 template <class Knots>
 void check_times(const std::string& path, const Knots& knots) {
   if (knots.empty()) throw InputError(path + " is empty; expected at least one time");
-  const auto shown = [&](std::size_t i) { return Quantity{duration}.shown(knots[i].time, 9); };
+  const auto to_text = [&](std::size_t i) { return Quantity{duration}.to_text(knots[i].time, 9); };
   for (std::size_t i = 1; i < knots.size(); ++i)
     if (!(knots[i].time > knots[i - 1].time))
-      throw InputError(path + "." + std::to_string(i) + ".time is " + shown(i) +
-                       "; expected a time after that of the entry before, " + shown(i - 1));
+      throw InputError(path + "." + std::to_string(i) + ".time is " + to_text(i) +
+                       "; expected a time after that of the entry before, " + to_text(i - 1));
 }
 void check_together(const std::string& path, const PathMotion& o) { check_times(path, o.knots); }
 void check_together(const std::string& path, const PathTurn& o) { check_times(path, o.knots); }
@@ -145,11 +145,11 @@ void check_grasp(const std::string& path, const GraspOptions& o) {
     throw InputError(path + ".until has " + std::to_string(o.until.size()) + " times and " + path +
                      ".from " + std::to_string(o.from.size()) +
                      "; expected as many, or one less: the last time it stays closed");
-  const auto shown = [](double time) { return Quantity{duration}.shown(time, 9); };
+  const auto to_text = [](double time) { return Quantity{duration}.to_text(time, 9); };
   const auto expect_after = [&](const std::string& key, double time, double before) {
     if (!(time > before))
-      throw InputError(path + key + " is " + shown(time) + "; expected a time after " +
-                       shown(before) + ": it closes and opens in turns");
+      throw InputError(path + key + " is " + to_text(time) + "; expected a time after " +
+                       to_text(before) + ": it closes and opens in turns");
   };
   for (std::size_t i = 0; i < o.from.size(); ++i) {
     if (i > 0) expect_after(".from", o.from[i], o.until[i - 1]);
@@ -178,13 +178,15 @@ void check_inertia(const std::string& path, const ObstacleOptions& o) {
     throw InputError(path + ".inertia has " + std::to_string(o.inertia.size()) +
                      " numbers; expected three, xx yy zz, or six, xx yy zz xy xz yz");
   const Point moments = principal_moments(o);
-  const auto shown = [](double moment) { return Quantity{{.mass = 1, .length = 2}}.shown(moment); };
+  const auto to_text = [](double moment) {
+    return Quantity{{.mass = 1, .length = 2}}.to_text(moment);
+  };
   if (!(moments[0] > 0))
-    throw InputError(path + ".inertia has a moment of " + shown(moments[0]) +
+    throw InputError(path + ".inertia has a moment of " + to_text(moments[0]) +
                      " about a principal axis; expected positive ones");
   if (moments[2] > moments[0] + moments[1] + 1e-9 * moments[2])
-    throw InputError(path + ".inertia has the principal moments " + shown(moments[0]) + ", " +
-                     shown(moments[1]) + " and " + shown(moments[2]) +
+    throw InputError(path + ".inertia has the principal moments " + to_text(moments[0]) + ", " +
+                     to_text(moments[1]) + " and " + to_text(moments[2]) +
                      "; expected none larger than the sum of the others, as of any solid");
 }
 

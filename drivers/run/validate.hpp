@@ -48,6 +48,6 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem);
 
 /// Returns warnings about a valid problem: a sentence for each thing that is allowed, but hardly
 /// meant.
-std::vector<std::string> doubts(const Problem& problem);
+std::vector<std::string> problem_warnings(const Problem& problem);
 
 }  // namespace plica

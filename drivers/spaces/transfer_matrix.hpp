@@ -40,12 +40,6 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
           to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
 }
 
-/// Returns the memory of some views [bytes].
-template <class... Views>
-std::size_t bytes_of_views(const Views&... views) {
-  return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
-}
-
 /// Returns the memory of a sparse matrix [bytes].
 template <class B, class Value>
 std::size_t bytes_of_rows(const SparseRows<B, Value>& A) {

@@ -23,7 +23,7 @@ class LevelProbe {
   Problem problem;
   BuiltHierarchy<B> built;
 
-  SolverLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
+  Level<B>& at(int i) { return (*built.hierarchy)[i]; }
   std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).model.vertices); }
   std::vector<Point> zero(int i = 0) { return std::vector<Point>(vertices(i), Point::Zero()); }
 
@@ -39,7 +39,7 @@ class LevelProbe {
   /// Returns K(u) p, the elastic stiffness alone.
   std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p,
                                int i = 0) {
-    const Level<B>& level = at(i);
+    const LevelData<B>& level = at(i);
     at(i).tangent(state(u, p), device_field<B>(p));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     const auto host = [](const auto& view) {
@@ -66,7 +66,7 @@ class LevelProbe {
   std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
     std::vector<Point> q = stiffness(u, p);
     const Vectors<B> added = device_field<B>(zero());
-    at(0).add_follower_product(state(u, p), device_field<B>(p), 1, false, added);
+    at(0).add_term_product(state(u, p), device_field<B>(p), 1, false, added);
     const auto follower = to_host<B>(built.hierarchy->exec(), added);
     for (std::size_t a = 0; a < q.size(); ++a) q[a] += follower[a];
     return q;
@@ -74,7 +74,7 @@ class LevelProbe {
 
   /// Returns the elastic energy of level 0 [J], a sum of the vertices' shares.
   double elastic_energy(const std::vector<Point>& u) {
-    const Level<B>& level = at(0);
+    const LevelData<B>& level = at(0);
     at(0).elasticity().energy(built.hierarchy->exec(), level, device_field<B>(u));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     double sum = 0;

@@ -68,7 +68,7 @@ void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass,
 template <class B>
 void start(BuiltHierarchy<B>& built, double t) {
   Hierarchy<B>& hierarchy = *built.hierarchy;
-  const Level<B>& level = hierarchy[0];
+  const LevelData<B>& level = hierarchy[0];
   hierarchy.exec().fence("plica::small_motion");
   const auto inverse =
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), level.model.inverse_mass);
@@ -85,7 +85,7 @@ void start(BuiltHierarchy<B>& built, double t) {
   copy(hierarchy.exec(), level.state.v,
        to_device<Vectors<B>>("start", rows<typename B::Real>(velocity)));
   fill(hierarchy.exec(), level.state.u, 0);
-  for (auto& part : hierarchy.levels) part.integrator->forget();
+  for (auto& part : hierarchy.levels) part.integrator->reset_history();
   built.stepper->begin(hierarchy);
 }
 

@@ -20,11 +20,11 @@ namespace {
 template <class B, class Update>
 class EulerStep final : public Integrator<B> {
  public:
-  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
+  void advance(Level<B>& level, double time, double h, int steps) override {
     const Update update{level.model, level.f, level.state.u, level.state.v,
                         static_cast<typename B::Real>(h)};
     for (int s = 0; s < steps; ++s) {
-      level.remember(time + s * h);
+      level.accept_state(time + s * h);
       level.evaluate(level.state, time + s * h, level.f, Update::contact(h), h);
       update_vertices<B>(level.exec(), Update::label, level.model.vertices, update);
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
@@ -43,14 +43,14 @@ class CentralDifferenceStep final : public Integrator<B> {
   using Real = typename B::Real;
 
  public:
-  explicit CentralDifferenceStep(const Level<B>& level)
+  explicit CentralDifferenceStep(const LevelData<B>& level)
       : f_("plica::central_difference.f", level.model.vertices) {}
 
-  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
+  void advance(Level<B>& level, double time, double h, int steps) override {
     const int n = level.model.vertices;
     const auto half = static_cast<Real>(h / 2);
     const ContactStep contact{.span = h, .damped = h / 2};
-    level.remember(time);
+    level.accept_state(time);
     if (!current_ || level.asks_caller())
       level.evaluate(level.state, time, f_, contact, h / 2);
     else if (level.contact())
@@ -60,16 +60,16 @@ class CentralDifferenceStep final : public Integrator<B> {
       update_vertices<B>(level.exec(), "plica::kick_and_drift", n,
                          HalfKickAndDrift<B>{level.model, f_, level.state, half});
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
-      level.remember(time + (s + 1) * h);
+      level.accept_state(time + (s + 1) * h);
       level.evaluate(level.state, time + (s + 1) * h, f_, contact, s + 1 < steps ? h : h / 2);
       update_vertices<B>(level.exec(), "plica::kick", n,
                          HalfKick<B>{level.model, f_, level.state.v, half});
     }
   }
 
-  void forget() override { current_ = false; }
+  void reset_history() override { current_ = false; }
   std::size_t bytes() const override { return f_.span() * sizeof(Real); }
-  void persist(StateArchive<B>& archive) override {
+  void persist(Archive<B>& archive) override {
     archive.number(current_);
     archive.field("the central difference's force", f_);
   }
@@ -88,15 +88,15 @@ class RungeKuttaStep final : public Integrator<B> {
   using Real = typename B::Real;
 
  public:
-  explicit RungeKuttaStep(const Level<B>& level)
+  explicit RungeKuttaStep(const LevelData<B>& level)
       : start_("runge_kutta.start", level.model.vertices),
         stage_("runge_kutta.stage", level.model.vertices),
         sum_("runge_kutta.sum", level.model.vertices) {}
 
-  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
+  void advance(Level<B>& level, double time, double h, int steps) override {
     const auto& exec = level.exec();
     for (int s = 0; s < steps; ++s) {
-      level.remember(time + s * h);
+      level.accept_state(time + s * h);
       start_.copy(exec, level.state);
       stage_.copy(exec, level.state);
       sum_.copy(exec, level.state);
@@ -140,24 +140,25 @@ struct ClassicalTableau {
 }  // namespace
 
 template <class B>
-std::unique_ptr<Integrator<B>> SymplecticEuler::make(const Level<B>&, const IntegratorParts<B>&) {
+std::unique_ptr<Integrator<B>> SymplecticEuler::make(const LevelData<B>&,
+                                                     const IntegratorParts<B>&) {
   return std::make_unique<EulerStep<B, SymplecticEulerUpdate<B>>>();
 }
 template <class B>
-std::unique_ptr<Integrator<B>> CentralDifference::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> CentralDifference::make(const LevelData<B>& level,
                                                        const IntegratorParts<B>&) {
   return std::make_unique<CentralDifferenceStep<B>>(level);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> ForwardEuler::make(const Level<B>&, const IntegratorParts<B>&) {
+std::unique_ptr<Integrator<B>> ForwardEuler::make(const LevelData<B>&, const IntegratorParts<B>&) {
   return std::make_unique<EulerStep<B, ForwardEulerUpdate<B>>>();
 }
 template <class B>
-std::unique_ptr<Integrator<B>> Rk2::make(const Level<B>& level, const IntegratorParts<B>&) {
+std::unique_ptr<Integrator<B>> Rk2::make(const LevelData<B>& level, const IntegratorParts<B>&) {
   return std::make_unique<RungeKuttaStep<B, MidpointTableau>>(level);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> Rk4::make(const Level<B>& level, const IntegratorParts<B>&) {
+std::unique_ptr<Integrator<B>> Rk4::make(const LevelData<B>& level, const IntegratorParts<B>&) {
   return std::make_unique<RungeKuttaStep<B, ClassicalTableau>>(level);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Computes the base of backward Euler over h [s].
 template <class B>
-void backward_euler_base(const SolverLevel<B>& level, double h, const State<B>& base) {
+void backward_euler_base(const Level<B>& level, double h, const State<B>& base) {
   base.copy(level.exec(), level.state);
   add<B>(level.exec(), "plica::implicit_euler_base", static_cast<typename B::Real>(h), base.v,
          base.u);
@@ -30,7 +30,7 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
   using ImplicitStep<B>::ImplicitStep;
 
  protected:
-  bool step(SolverLevel<B>& level, double time, double h) override {
+  bool step(Level<B>& level, double time, double h) override {
     backward_euler_base(level, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
@@ -42,7 +42,7 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
 /// Methods Appl. Mech. Engrg. 180, 1999). Averaged over a step it would gain energy. Overwrites
 /// level.f.
 template <class B>
-void trapezoidal_base(SolverLevel<B>& level, double time, double h, const State<B>& base) {
+void trapezoidal_base(Level<B>& level, double time, double h, const State<B>& base) {
   using Real = typename B::Real;
   level.evaluate_without_contact(level.state, time, level.f);
   update_vertices<B>(level.exec(), "plica::accelerations", level.model.vertices,
@@ -63,7 +63,7 @@ class NewmarkStep final : public ImplicitStep<B> {
   using ImplicitStep<B>::ImplicitStep;
 
  protected:
-  bool step(SolverLevel<B>& level, double time, double h) override {
+  bool step(Level<B>& level, double time, double h) override {
     trapezoidal_base(level, time, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h / 4, h / 2}, {.span = h, .factor = 2});
   }
@@ -86,23 +86,23 @@ class Bdf2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;
 
  public:
-  Bdf2Step(const Level<B>& level, const IntegratorParts<B>& parts)
+  Bdf2Step(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : ImplicitStep<B>(level, parts),
         start_("bdf2.start", level.model.vertices),
         increment_("bdf2.increment", level.model.vertices) {}
 
-  void forget() override { last_step_ = 0; }
+  void reset_history() override { last_step_ = 0; }
   std::size_t bytes() const override {
     return ImplicitStep<B>::bytes() + 4 * start_.u.span() * sizeof(Real);
   }
-  void persist(StateArchive<B>& archive) override {
+  void persist(Archive<B>& archive) override {
     ImplicitStep<B>::persist(archive);
     archive.number(last_step_);
     archive.state("bdf2's increment", increment_);
   }
 
  protected:
-  bool step(SolverLevel<B>& level, double time, double h) override {
+  bool step(Level<B>& level, double time, double h) override {
     constexpr double most_growth = 2.0 + 1e-9;  // maximum ratio of a step to the last one
     start_.copy(level.exec(), level.state);
     const double growth = last_step_ > 0 ? h / last_step_ : 0;
@@ -111,8 +111,8 @@ class Bdf2Step final : public ImplicitStep<B> {
            : level.contact() ? euler(level, time, h)
                              : first(level, time, h / 2);
   }
-  void finish(SolverLevel<B>& level, double h) override {
-    remember(level);
+  void finish(Level<B>& level, double h) override {
+    accept_state(level);
     last_step_ = h;
   }
   /// Returns the impulse; a part of the last change of momentum is carried on.
@@ -129,7 +129,7 @@ class Bdf2Step final : public ImplicitStep<B> {
   static double carried_part(double ratio) { return ratio * ratio / (1 + 2 * ratio); }
   static double implicit_part(double ratio) { return (1 + ratio) / (1 + 2 * ratio); }
 
-  bool formula(SolverLevel<B>& level, double time, double h, double ratio,
+  bool formula(Level<B>& level, double time, double h, double ratio,
                const ContactStage& contact = {}) {
     const double b = implicit_part(ratio) * h;
     const State<B>& base = this->stages().base();
@@ -139,18 +139,19 @@ class Bdf2Step final : public ImplicitStep<B> {
     return this->stages().solve(level, time, h, {b * b, b}, contact);
   }
   /// Computes a step of backward Euler: the trapezoidal rule oscillates where contact sets in.
-  bool euler(SolverLevel<B>& level, double time, double h) {
+  bool euler(Level<B>& level, double time, double h) {
     backward_euler_base(level, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
-  bool first(SolverLevel<B>& level, double time, double h) {
+  bool first(Level<B>& level, double time, double h) {
     trapezoidal_base(level, time, h, this->stages().base());
     const bool solved = this->stages().solve(level, time, h, {h * h / 4, h / 2});
-    last_step_ = 0, remember(level);  // stores the first half, also where the step is not accepted
+    last_step_ = 0,
+    accept_state(level);  // stores the first half, also where the step is not accepted
     prescribe(level.exec(), level, level.state, time + h, h);
     return formula(level, time + h, h, 1) && solved;
   }
-  void remember(const SolverLevel<B>& level) const {
+  void accept_state(const Level<B>& level) const {
     combine<B>(level.exec(), "plica::bdf2_increment", -1, start_, 1, level.state, increment_);
   }
 };
@@ -166,7 +167,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   using Real = typename B::Real;
 
  public:
-  GeneralizedAlphaStep(const Level<B>& level, const IntegratorParts<B>& parts)
+  GeneralizedAlphaStep(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : ImplicitStep<B>(level, parts),
         start_("generalized_alpha.start", level.model.vertices),
         acceleration_("plica::generalized_alpha.acceleration", level.model.vertices) {
@@ -175,18 +176,18 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     gamma_ = 0.5 - mass_ + force_, beta_ = 0.25 * (1 - mass_ + force_) * (1 - mass_ + force_);
   }
 
-  void forget() override { carried_ = false; }
+  void reset_history() override { carried_ = false; }
   std::size_t bytes() const override {
     return ImplicitStep<B>::bytes() + 3 * start_.u.span() * sizeof(Real);
   }
-  void persist(StateArchive<B>& archive) override {
+  void persist(Archive<B>& archive) override {
     ImplicitStep<B>::persist(archive);
     archive.number(carried_);
     archive.field("the acceleration", acceleration_);
   }
 
  protected:
-  bool step(SolverLevel<B>& level, double time, double h) override {
+  bool step(Level<B>& level, double time, double h) override {
     const auto& exec = level.exec();
     const int n = level.model.vertices;
     const State<B>& base = this->stages().base();
@@ -217,7 +218,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     return {1 / (1 - mass_), again, gamma_ * h, started_ ? (1 - gamma_) * h : 0};
   }
 
-  void finish(SolverLevel<B>& level, double h) override {
+  void finish(Level<B>& level, double h) override {
     carried_ = true;
     update_vertices<B>(
         level.exec(), "plica::generalized_alpha_end", level.model.vertices,
@@ -250,14 +251,14 @@ class Sdirk2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;
 
  public:
-  Sdirk2Step(const Level<B>& level, const IntegratorParts<B>& parts)
+  Sdirk2Step(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : ImplicitStep<B>(level, parts), start_("sdirk2.start", level.model.vertices) {}
   std::size_t bytes() const override {
     return ImplicitStep<B>::bytes() + 2 * start_.u.span() * sizeof(Real);
   }
 
  protected:
-  bool step(SolverLevel<B>& level, double time, double h) override {
+  bool step(Level<B>& level, double time, double h) override {
     const double part = (1 - std::sqrt(0.5)) * h, rest = h - part;
     const ImplicitWeights weights{part * part, part};
     const State<B>& base = this->stages().base();
@@ -266,7 +267,7 @@ class Sdirk2Step final : public ImplicitStep<B> {
     const bool first = this->stages().solve(level, time, part, weights, {.span = part});
     fill(level.exec(), level.f, Real(0));
     if (level.contact())
-      level.book("contact", [&] {
+      level.timed("contact", [&] {
         level.response().end_stage(level.exec(), level, level.state);
         level.response().add_last_forces(level.exec(), level, level.f);
       });
@@ -286,31 +287,32 @@ class Sdirk2Step final : public ImplicitStep<B> {
 }  // namespace
 
 template <class B>
-std::unique_ptr<Integrator<B>> Sdirk2::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> Sdirk2::make(const LevelData<B>& level,
                                             const IntegratorParts<B>& parts) {
   return std::make_unique<Sdirk2Step<B>>(level, parts);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> ImplicitEuler::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> ImplicitEuler::make(const LevelData<B>& level,
                                                    const IntegratorParts<B>& parts) {
   return std::make_unique<ImplicitEulerStep<B>>(level, parts);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> Newmark::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> Newmark::make(const LevelData<B>& level,
                                              const IntegratorParts<B>& parts) {
   return std::make_unique<NewmarkStep<B>>(level, parts);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> Bdf2::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+std::unique_ptr<Integrator<B>> Bdf2::make(const LevelData<B>& level,
+                                          const IntegratorParts<B>& parts) {
   return std::make_unique<Bdf2Step<B>>(level, parts);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> GeneralizedAlpha::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> GeneralizedAlpha::make(const LevelData<B>& level,
                                                       const IntegratorParts<B>& parts) {
   return std::make_unique<GeneralizedAlphaStep<B>>(level, parts);
 }
 template <class B>
-std::unique_ptr<Integrator<B>> VCycleEuler::make(const Level<B>& level,
+std::unique_ptr<Integrator<B>> VCycleEuler::make(const LevelData<B>& level,
                                                  const IntegratorParts<B>& parts) {
   return std::make_unique<ImplicitEulerStep<B>>(level, parts);
 }

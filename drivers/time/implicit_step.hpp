@@ -15,15 +15,15 @@ class ImplicitStep : public Integrator<B> {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
+  ImplicitStep(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : stages_(level, parts), stops_(parts.stops) {}
 
-  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
+  void advance(Level<B>& level, double time, double h, int steps) override {
     stages_.begin();
     unsolved_ = 0;
     for (int s = 0; s < steps; ++s) {
       const double start = time + s * h;
-      level.remember(start);
+      level.accept_state(start);
       prescribe(level.exec(), level, level.state, start, h);
       if (!step(level, start, h)) unsolved_ = std::max(unsolved_, stages_.unsolved());
       accept(level, start, h);
@@ -39,20 +39,20 @@ class ImplicitStep : public Integrator<B> {
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
   std::size_t bytes() const override { return stages_.bytes(); }
-  void persist(StateArchive<B>& archive) override {
+  void persist(Archive<B>& archive) override {
     archive.number(surprised_), stages_.persist(archive);
   }
 
  protected:
   /// Computes a step from `time` over h [s]; returns false where a stage is not solved. The level's
   /// state at the start is consistent with given motions.
-  virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
+  virtual bool step(Level<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
   /// Returns how contact's last forces contribute to the impulse of the last step, of h [s].
   virtual CarriedImpulse impulse(double h) const { return {h}; }
   /// Computes the end of the step from the last stage, which is the level's state. By default the
   /// last stage is the end of the step.
-  virtual void finish(SolverLevel<B>&, double /*h*/) {}
+  virtual void finish(Level<B>&, double /*h*/) {}
 
  private:
   static constexpr double notable_motion = 0.1;  ///< notable fraction of the kinetic energy
@@ -62,9 +62,9 @@ class ImplicitStep : public Integrator<B> {
   bool stops_;              ///< whether the run ends where a step is not solved
   double unsolved_ = 0;     ///< largest unbalanced part of the forces in the last advance()
 
-  void accept(SolverLevel<B>& level, double time, double h) {
+  void accept(Level<B>& level, double time, double h) {
     if (level.contact())
-      level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
+      level.timed("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
     finish(level, h);
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;
@@ -79,9 +79,9 @@ class ImplicitStep : public Integrator<B> {
   /// that of the contact at its end. The result is 0 where it would be 1 or less, or where found is
   /// at most 2 solved; it is at most 1e9. Unforeseen contact throws the body. One such step happens
   /// when bodies come into touch; a second one in a row counts as not solved.
-  double unforeseen(SolverLevel<B>& level, double time) {
+  double unforeseen(Level<B>& level, double time) {
     double solved = 0, found = 0;
-    level.book("contact", [&] {
+    level.timed("contact", [&] {
       solved = level.response().energy(level.exec(), level, time);
       found = level.response().energy_found(level.exec(), level, level.state, time);
     });

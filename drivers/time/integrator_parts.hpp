@@ -26,6 +26,6 @@ struct IntegratorParts {
 /// that defines Kind::make().
 #define PLICA_MAKE_INTEGRATOR(Kind, ...)                        \
   template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make( \
-      const Level<__VA_ARGS__>&, const IntegratorParts<__VA_ARGS__>&);
+      const LevelData<__VA_ARGS__>&, const IntegratorParts<__VA_ARGS__>&);
 
 }  // namespace plica

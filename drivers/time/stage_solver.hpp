@@ -8,7 +8,7 @@
 #include <plica/drivers/linear/linear_solver.hpp>
 #include <plica/drivers/time/incremental_potential.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
-#include <plica/kernels/elastic/carried_pressures.hpp>
+#include <plica/kernels/elastic/mixed_pressures.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/time/energies.hpp>
 #include <plica/kernels/time/stage_kernels.hpp>
@@ -21,14 +21,14 @@ namespace plica {
 /// level's state. It uses one linear solve about the start of the step (linearly implicit: Baraff &
 /// Witkin 1998), or Newton's method on the incremental potential (Gast et al. 2015). Where nodal
 /// elements smooth their pressures, mixed pressures are kept from solve to solve:
-/// kernels/elastic/carried_pressures.hpp.
+/// kernels/elastic/mixed_pressures.hpp.
 template <class B>
 class StageSolver {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  StageSolver(const Level<B>& level, const IntegratorParts<B>& parts)
+  StageSolver(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : options_(parts.implicit),
         edge_(parts.edge),
         may_invert_(parts.may_invert),
@@ -40,7 +40,7 @@ class StageSolver {
         right_side_("plica::stage.right_side", level.model.vertices),
         change_("plica::stage.change", level.model.vertices) {
     const auto slots = static_cast<std::size_t>(level.model.rows.slots());
-    if (level.model.rows.excess.extent(0) > 0) {
+    if (level.model.rows.bulk_excess.extent(0) > 0) {
       carrying_ = zeros<Scalars<B>>("plica::stage.pressure", 3 * slots);
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
@@ -61,7 +61,7 @@ class StageSolver {
   /// Solves the stage at time + ahead [s], from the level's state at the step's start, `time`.
   /// Returns false where Newton's method did not solve it.
   /// @param contact  times and factors of contact; a default one: no contact in this stage
-  bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights,
+  bool solve(Level<B>& level, double time, double ahead, const ImplicitWeights& weights,
              const ContactStage& contact = {}) {
     contact_ = contact;
     prescribe(level.exec(), level, base_, time + ahead);
@@ -81,7 +81,7 @@ class StageSolver {
   /// solved.
   bool judges() const { return result_.extent(0) > 0; }
   /// Returns the kinetic energy of the level's state [J]. Waits for the device.
-  double kinetic(const SolverLevel<B>& level) const {
+  double kinetic(const Level<B>& level) const {
     reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
                  KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
     return host_values(level.exec(), result_)[0];
@@ -110,7 +110,7 @@ class StageSolver {
            sizeof(Real) * (4 * change_.span() + dead_.span() + von_mises_.span() + volume_.span() +
                            carrying_.extent(0) + last_carried_.extent(0));
   }
-  void persist(StateArchive<B>& archive) {
+  void persist(Archive<B>& archive) {
     for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &searches_})
       archive.number(*count);
     archive.number(residual_), archive.number(projecting_);
@@ -162,24 +162,23 @@ class StageSolver {
 
   bool iterates() const { return options_.newton_iterations > 1; }
   bool carries() const { return carried_.extent(0) > 0; }
-  StageAt<B> at(const Level<B>& level, const ImplicitWeights& w) const {
+  StageAt<B> at(const LevelData<B>& level, const ImplicitWeights& w) const {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
   }
 
   /// Returns whether a system has only inertia and the elements' stiffness.
-  static bool is_stiffness_alone(const SolverLevel<B>& level) {
-    return !level.contact() && level.followers.empty() && !level.viscosity &&
+  static bool is_stiffness_alone(const Level<B>& level) {
+    return !level.contact() && !level.has_stiff_terms() && !level.viscosity &&
            level.model.patches.damping.extent(0) == 0;
   }
 
-  bool solve_stage(SolverLevel<B>& level, double time, double ahead,
-                   const ImplicitWeights& weights) {
+  bool solve_stage(Level<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     if (touches(level) || iterates()) return minimise(level, time, ahead, weights);
     level.linearise(level.state, time, weights, ahead, level.f);
     const double tolerance = options_.relative_residual;
     SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
-    if (out.indefinite && options_.tangent == "auto" && !level.followers.empty() &&
-        level.prescribed.count == 0) {
+    if (out.indefinite && options_.tangent == "auto" &&
+        level.has_terms(TermStiffness::unassembled) && level.prescribed.count == 0) {
       undo(level, weights, 1);  // pressures that follow the body made the system indefinite
       if (!out.converged) --misses_;
       out = correct(level, weights, false, true, tolerance);
@@ -189,8 +188,8 @@ class StageSolver {
   }
 
   /// Solves one linear system at the linearised state, and updates the state with its solution.
-  SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start,
-                       bool positive, double tolerance) {
+  SolveOutcome correct(Level<B>& level, const ImplicitWeights& w, bool from_start, bool projected,
+                       double tolerance) {
     const int n = level.model.vertices;
     const StageAt<B> stage = at(level, w);
     Vectors<B> force = level.f, gap;
@@ -200,25 +199,25 @@ class StageSolver {
       update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, gap});
     }
     SolveOutcome out;
-    level.book("solve", [&] {
-      if (positive) level.keep_tangents();
-      solver_->prepare(level, level.state, w, positive);
-      if (from_start && !positive && is_stiffness_alone(level))
+    level.timed("solve", [&] {
+      if (projected) level.keep_tangents();
+      solver_->prepare(level, level.state, w, projected);
+      if (from_start && !projected && is_stiffness_alone(level))
         by_product = solver_->multiply(level.exec(), gap, right_side_);
     });
     if (from_start && !by_product) {
-      if (!level.followers.empty()) {
+      if (level.has_stiff_terms()) {
         copy(level.exec(), right_side_, force);
-        level.add_follower_product(level.state, gap, -1, positive, right_side_);
+        level.add_term_product(level.state, gap, -1, projected, right_side_);
         force = right_side_;
       }
-      level.tangent(level.state, gap, 0, positive);
+      level.tangent(level.state, gap, 0, projected);
     }
     update_vertices<B>(
         level.exec(), "plica::stage_right_side", n,
         StageRightSide<B>{stage, force, level.partial, right_side_, gap, by_product});
-    level.book("solve",
-               [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
+    level.timed("solve",
+                [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
@@ -233,21 +232,21 @@ class StageSolver {
   // --- Newton's method ---------------------------------------------------------------------------
 
   /// Returns whether contact acts in this stage.
-  bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
+  bool touches(const Level<B>& level) const { return level.contact() && contact_.span > 0; }
 
   /// Minimises the potential of elements and contact together, from the step's start. Systems are
   /// solved only as accurately as it pays (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each
   /// further state has a lower potential at fixed caps of friction, and keeps a part of the least
   /// volume. Then the caps are updated.
-  bool minimise(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
+  bool minimise(Level<B>& level, double time, double ahead, const ImplicitWeights& w) {
     const double end = time + ahead;
     // no element flags are set at trial states of Newton's method
     const ElementFlags<B> flags = std::exchange(level.flags, {});
     if (touches(level))
-      level.book("contact", [&] {
+      level.timed("contact", [&] {
         level.response().begin_stage(level.exec(), level, level.state, time, contact_);
       });
-    level.dead(end, dead_);
+    level.dead_loads(end, dead_);
     fill(level.exec(), change_, Real(0));
     level.linearise(level.state, time, w, ahead, level.f);
     IncrementalPotential now = here(level, end, w);
@@ -292,7 +291,7 @@ class StageSolver {
            std::max({options_.newton_residual, part * now.forces, unseen_force(now, w)});
   }
 
-  void follow_caps(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+  void follow_caps(Level<B>& level, double end, const ImplicitWeights& w,
                    IncrementalPotential& now) {
     ContactResponse<B>& contact = level.response();
     contact.update_caps(level.exec(), level, level.state);
@@ -317,7 +316,7 @@ class StageSolver {
   /// The next state is then linearised, without contact in level.f. Where Newton's direction does
   /// not lead down, that of the projected tangents is tried. If it does not lead down either, the
   /// state stays and nothing is returned.
-  std::optional<IncrementalPotential> descend(SolverLevel<B>& level, double time, double ahead,
+  std::optional<IncrementalPotential> descend(Level<B>& level, double time, double ahead,
                                               const ImplicitWeights& w,
                                               const IncrementalPotential& now, int k,
                                               double tolerance) {
@@ -354,8 +353,7 @@ class StageSolver {
 
   /// Shortens the last change of the state, to `part` of it, until the potential is lower. The
   /// least volume must also not be much lower than before. Returns nothing where that fails.
-  std::optional<IncrementalPotential> shorten(SolverLevel<B>& level, double end,
-                                              const ImplicitWeights& w,
+  std::optional<IncrementalPotential> shorten(Level<B>& level, double end, const ImplicitWeights& w,
                                               const IncrementalPotential& now, double slope,
                                               bool moving, int most, double& part) {
     cut_ = false;
@@ -386,7 +384,7 @@ class StageSolver {
   }
 
   /// Returns the potential of the state whose forces are in level.f, with contact's energy.
-  IncrementalPotential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
+  IncrementalPotential here(Level<B>& level, double end, const ImplicitWeights& w) {
     const IncrementalPotential p = potential(level, end, w);
     return touches(level)
                ? with_contact(p, level.response().balance(level.exec(), level, level.state))
@@ -399,7 +397,7 @@ class StageSolver {
 
   /// Returns `now` for the state before the last change, with its value at the present mixed
   /// pressures.
-  IncrementalPotential before(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+  IncrementalPotential before(Level<B>& level, double end, const ImplicitWeights& w,
                               IncrementalPotential now) const {
     if (!carries()) return now;
     now.value = vertex_terms(level, w, 1)[0];
@@ -410,7 +408,7 @@ class StageSolver {
   }
 
   /// Returns the least volume ratio of an element, 1 at most.
-  double least_volume(const SolverLevel<B>& level) const {
+  double least_volume(const Level<B>& level) const {
     level.elasticity().stress(level.exec(), level, level.state.u, von_mises_, volume_);
     reduce<B, 1, LackOfVolume<B>, Sums<1, 1>>(level.exec(), "plica::least_volume",
                                               static_cast<int>(volume_.extent(0)), {volume_},
@@ -418,13 +416,13 @@ class StageSolver {
     return 1 - host_values(level.exec(), result_)[0];
   }
 
-  void retreat(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+  void retreat(const Level<B>& level, const ImplicitWeights& w, double part) const {
     update_vertices<B>(level.exec(), "plica::stage_retreat", level.model.vertices,
                        StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
   }
 
   /// Takes back `part` of the last change, which is all that is left of it.
-  void undo(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+  void undo(const Level<B>& level, const ImplicitWeights& w, double part) const {
     retreat(level, w, part);
     if (carries()) copy(level.exec(), carried_, last_carried_);
   }
@@ -435,7 +433,7 @@ class StageSolver {
   }
   /// Returns the sums of StagePotential. `back`: 1 for the state before the last change, while
   /// level.f are the forces there; 0 for the present state.
-  std::array<double, 7> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w,
+  std::array<double, 7> vertex_terms(const Level<B>& level, const ImplicitWeights& w,
                                      double back) const {
     reduce<B, 7>(level.exec(), "plica::stage_potential", level.model.vertices,
                  StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)},
@@ -443,7 +441,7 @@ class StageSolver {
     return read(level.exec());
   }
   /// Returns the potential of the state whose forces are in level.f, without contact.
-  IncrementalPotential potential(const SolverLevel<B>& level, double end,
+  IncrementalPotential potential(const Level<B>& level, double end,
                                  const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     const double energy = stored(level, end);
@@ -455,11 +453,11 @@ class StageSolver {
             std::sqrt(terms[6])};
   }
   /// Returns the energy of elements and of pressures that follow the body at the level's state [J].
-  double stored(const SolverLevel<B>& level, double end) const {
+  double stored(const Level<B>& level, double end) const {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
                  FirstComponent<B>{level.partial}, blocks_, result_);
-    return read(level.exec())[0] + level.follower_energy(end);
+    return read(level.exec())[0] + level.term_energy(end);
   }
 };
 

@@ -3,7 +3,7 @@
 #include <plica/core/functions.hpp>
 #include <plica/core/small.hpp>
 #include <plica/kernels/contact/gap.hpp>
-#include <plica/kernels/contact/obstacle_place.hpp>
+#include <plica/kernels/contact/obstacle_pose.hpp>
 
 namespace plica {
 
@@ -31,7 +31,7 @@ KOKKOS_INLINE_FUNCTION SymMat3<Real> concavity(const Shape& shape, const Obstacl
     const Real part = most / (most - least);
     xx = part * (xx - least), yy = part * (yy - least), xy = part * xy;
   }
-  const Vec3<Real> a = place.outward(across[0]), b = place.outward(across[1]);
+  const Vec3<Real> a = place.to_world(across[0]), b = place.to_world(across[1]);
   const Vec3<Real> of_a = xx * a + xy * b, of_b = xy * a + yy * b;
   return six_of(outer(of_a, a) + outer(of_b, b));
 }

@@ -69,12 +69,12 @@ struct ScatterContact {
   Real factor = 1;  ///< factor of the forces
   VertexModel<B> model = {};
   Real damped = 0;  ///< factor of mass damping [s]; see ContactStep
-  Bounding bounding = Bounding::none;
+  AbsoluteWeights absolute_weights = AbsoluteWeights::none;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(records.transpose.vertices.item(i));
     const Real part = damped > 0 ? factor * kept<B>(model, a, damped) : factor;
-    set_vector<B>(f, a, vector_at<B>(f, a) + part * contact_force<B>(records, i, bounding));
+    set_vector<B>(f, a, vector_at<B>(f, a) + part * contact_force<B>(records, i, absolute_weights));
   }
 };
 

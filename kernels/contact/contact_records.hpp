@@ -277,14 +277,14 @@ struct ContactRecords {
 
   /// Returns W of a field; `bounding`: by absolute weights.
   KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x,
-                                          int r, bool bounding = false) const {
+                                          int r, bool absolute_weights = false) const {
     Vec3<Real> sum;
     for (int c = 0; c < 4; ++c) {
       const int p = point(r, c);
       if (p < 0) continue;
       const Real w = weight(r, c);
-      sum += bounding ? Kokkos::abs(w) * sum_of_parts_at<B>(surface.embedding, x, p)
-                      : w * value_at<B>(surface.embedding, x, p);
+      sum += absolute_weights ? Kokkos::abs(w) * sum_of_parts_at<B>(surface.embedding, x, p)
+                              : w * value_at<B>(surface.embedding, x, p);
     }
     return sum;
   }
@@ -346,16 +346,17 @@ struct ContactRecords {
 /// Weights that count by their absolute values: none; those of obstacles alone; all. Those of
 /// obstacles alone are for an A that is no multiple of 1: the two sides of a pair respond alike to
 /// a force of one direction.
-enum class Bounding { none, obstacles, all };
+enum class AbsoluteWeights { none, obstacles, all };
 
 /// Returns the force [N] that the records put on the i-th vertex in the list.
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> contact_force(const ContactRecords<B>& records, int i,
-                                                            Bounding bounding = Bounding::none) {
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> contact_force(
+    const ContactRecords<B>& records, int i,
+    AbsoluteWeights absolute_weights = AbsoluteWeights::none) {
   Vec3<typename B::Real> sum;
   records.transpose.each(i, [&](int r, typename B::Real w) {
-    const bool absolute =
-        bounding == Bounding::all || (bounding == Bounding::obstacles && !records.is_pair(r));
+    const bool absolute = absolute_weights == AbsoluteWeights::all ||
+                          (absolute_weights == AbsoluteWeights::obstacles && !records.is_pair(r));
     sum += (absolute ? Kokkos::abs(w) : w) * vector_at<B>(records.force, r);
   });
   return sum;

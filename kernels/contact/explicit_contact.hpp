@@ -210,12 +210,12 @@ struct AnswerByMass {
   ContactRecords<B> records;
   Vectors<B> answer;
   Real damped;
-  Bounding bounding;
+  AbsoluteWeights absolute_weights;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(records.transpose.vertices.item(i));
     set_vector<B>(answer, a,
                   (model.inverse_mass(a) * kept<B>(model, a, damped)) *
-                      contact_force<B>(records, i, bounding));
+                      contact_force<B>(records, i, absolute_weights));
   }
 };
 

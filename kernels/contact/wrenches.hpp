@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/contact/contact_records.hpp>
-#include <plica/kernels/contact/obstacle_place.hpp>
+#include <plica/kernels/contact/obstacle_pose.hpp>
 #include <plica/kernels/reduce.hpp>
 
 // Forces and torques of obstacles on the body, and of bodies on each other.
@@ -27,7 +27,7 @@ struct ObstacleWrench {
   Vectors<B> u;
   ContactRecords<B> records;
   int obstacle;
-  ObstaclePlace<B> at;
+  ObstaclePose<B> at;
   KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
     const int r = records.list.item(i);
     if (records.row(r) != obstacle) return {};

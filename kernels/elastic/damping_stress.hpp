@@ -43,10 +43,10 @@ struct DampingRate {
   using Real = typename B::Real;
   /// [patches] tau [s], or empty
   Scalars<B> damping;
-  Real over = 0;  ///< factor of tau
+  Real damping_scale = 0;  ///< factor of tau
   /// Returns true where there is damping.
-  bool counts() const { return over > 0 && damping.extent(0) > 0; }
-  KOKKOS_INLINE_FUNCTION Real operator()(int patch) const { return over * damping(patch); }
+  bool counts() const { return damping_scale > 0 && damping.extent(0) > 0; }
+  KOKKOS_INLINE_FUNCTION Real operator()(int patch) const { return damping_scale * damping(patch); }
 };
 
 }  // namespace plica

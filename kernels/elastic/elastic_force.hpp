@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/model.hpp>
 #include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/patch_kernel.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/launch.hpp>
 #include <plica/core/patches.hpp>
-#include <plica/kernels/elastic/stress_memory.hpp>
+#include <plica/kernels/elastic/viscous_history.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica {
@@ -17,7 +17,7 @@ struct ElasticStress {
   Patches<B> patches;
   Vectors<B> u;
   Scalars<B> equivalent, ratio;  ///< [tets of the mesh]
-  Scalars<B> lost;               ///< relaxed stress; see StressMemory
+  Scalars<B> relaxed;            ///< relaxed stress; see ViscousHistory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = league_rank(team), first = patches.first_pack(p) * lanes,
@@ -40,7 +40,8 @@ struct ElasticStress {
     const int slot = pack * lanes + lane;
     Mat3<Real> sigma = cauchy_stress<Material>(
         F, load_constants<Material, Real>(patches.constants, patch, patches.fibres, slot));
-    if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, Real>(lost, slot));
+    if (relaxed.extent(0) > 0)
+      sigma = sigma - pushed_forward(F, load_symmetric<B, Real>(relaxed, slot));
     equivalent(tet) = von_mises(sigma);
     ratio(tet) = determinant(F);
   }
@@ -48,11 +49,11 @@ struct ElasticStress {
 
 template <class B, class Material>
 void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-                    const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& lost) {
+                    const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& relaxed) {
   if (patches.count == 0) return;
   launch("plica::elastic_stress",
          Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
-         ElasticStress<B, Material>{patches, u, von_mises, J, lost});
+         ElasticStress<B, Material>{patches, u, von_mises, J, relaxed});
 }
 
 }  // namespace plica

@@ -57,8 +57,8 @@ struct ElasticDiagonal {
 
 template <class B, class Material>
 void elastic_tangent(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-                     const Vectors<B>& p, double over, const Vectors<B>& partial) {
-  const DampingRate<B> rate{patches.damping, static_cast<typename B::Real>(over)};
+                     const Vectors<B>& p, double damping_scale, const Vectors<B>& partial) {
+  const DampingRate<B> rate{patches.damping, static_cast<typename B::Real>(damping_scale)};
   by_case(rate.counts(), [&]<bool damped>(std::bool_constant<damped>) {
     launch_patches<B>(
         exec, "plica::elastic_tangent", patches,
@@ -69,8 +69,8 @@ void elastic_tangent(const typename B::Exec& exec, const Patches<B>& patches, co
 
 template <class B, class Material>
 void elastic_diagonal(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-                      int direction, double over, const Vectors<B>& partial) {
-  const DampingRate<B> rate{patches.damping, static_cast<typename B::Real>(over)};
+                      int direction, double damping_scale, const Vectors<B>& partial) {
+  const DampingRate<B> rate{patches.damping, static_cast<typename B::Real>(damping_scale)};
   by_case(rate.counts(), [&]<bool damped>(std::bool_constant<damped>) {
     launch_patches<B>(exec, "plica::elastic_diagonal", patches,
                       ElasticDiagonal<B, Material, damped>{

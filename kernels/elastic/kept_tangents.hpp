@@ -15,7 +15,7 @@ inline constexpr int symmetric_nine = 45;
 /// Elsewhere tangents are projected anew in every product.
 template <class B>
 bool keeps_tangents(const NodalRows<B>& rows) {
-  return rows.slices > 0 && rows.damping.extent(0) == 0 && rows.excess.extent(0) == 0;
+  return rows.slices > 0 && rows.damping.extent(0) == 0 && rows.bulk_excess.extent(0) == 0;
 }
 
 /// Computes the tangents of the state whose gradients are kept.
@@ -91,20 +91,20 @@ struct KeptDiagonal {
 
 /// Computes level.nodal.tangent for the state whose gradients are kept.
 template <class B, class Material>
-void keep_nodal_tangents(const typename B::Exec& exec, const Level<B>& level) {
+void keep_nodal_tangents(const typename B::Exec& exec, const LevelData<B>& level) {
   const NodalRows<B>& rows = level.model.rows;
   for_rows<B>(exec, "plica::nodal_keep_tangents", rows,
               KeepTangents<B, Material>{rows, level.nodal, RowScales<B>(rows)});
 }
 
 template <class B>
-void kept_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& p) {
+void kept_tangent(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& p) {
   lay_out<B>(exec, level.model.rows, level.nodal, {p});
   launch_rows<B>(exec, "plica::nodal_kept_tangent", level, KeptTangent<B>{level.nodal.tangent});
 }
 
 template <class B>
-void kept_diagonal(const typename B::Exec& exec, const Level<B>& level, int direction) {
+void kept_diagonal(const typename B::Exec& exec, const LevelData<B>& level, int direction) {
   const NodalRows<B>& rows = level.model.rows;
   for_rows<B>(exec, "plica::nodal_diagonal", rows,
               RowStresses<B, KeptDiagonal<B>>{

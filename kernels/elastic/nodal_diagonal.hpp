@@ -42,7 +42,7 @@ struct NodalDiagonal {
   using T = RowPack<B>;
   RowScales<B> scales;
   Scalars<B> inverse_volume;
-  typename B::Real over;  ///< factor of the damping times [1/s]
+  typename B::Real damping_scale;  ///< factor of the damping times [1/s]
   int direction;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1],
@@ -58,7 +58,8 @@ struct NodalDiagonal {
       dF[direction][j] = T(1);
       dP[j] = tangent(dF) - T(scales.stabiliser(region)) * dF;
       if constexpr (Damped)
-        dP[j] = dP[j] + T(over * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
+        dP[j] = dP[j] +
+                T(damping_scale * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
     }
     diagonal_record(dP, weight, direction, Q, v);
   }
@@ -125,14 +126,15 @@ struct RowDiagonal {
 /// Computes column `direction` of the diagonal blocks of K(u). An empty u: about the state whose
 /// gradients are kept.
 template <class B, class Material, template <class> class Tangent>
-void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                    double over, int direction) {
+void nodal_diagonal(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+                    double damping_scale, int direction) {
   const NodalRows<B>& rows = level.model.rows;
   const RowScales<B> scales(rows);
-  const auto rate = static_cast<typename B::Real>(over);
+  const auto rate = static_cast<typename B::Real>(damping_scale);
   const bool kept = u.extent(0) == 0;
   if (!kept) lay_out<B>(exec, rows, level.nodal, {u});
-  by_case(over > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
+  by_case(damping_scale > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(
+                                                               std::bool_constant<damped>) {
     for_rows<B>(exec, "plica::nodal_diagonal", rows,
                 RowStresses<B, NodalDiagonal<B, Material, Tangent, damped>>{
                     rows, level.nodal, {scales, rows.inverse_volume, rate, direction}, kept});

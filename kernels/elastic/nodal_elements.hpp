@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/elastic/nodal_rows.hpp>
-#include <plica/kernels/elastic/stress_memory.hpp>
+#include <plica/kernels/elastic/viscous_history.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // Elements with one strain per vertex and region ("nodal"), stabilised:
@@ -20,8 +20,8 @@
 //   Q_a = P(F_a) - beta mu G_a,   f_b = -sum_a Q_a C_ab - beta mu sum_a w_ab u_a.
 //
 // Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest
-// (`excess`) acts on J~ = S J, a mean over neighbours: + sum_a V_a excess/2 (J~_a - 1)^2, whose
-// stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
+// (`bulk_excess`) acts on J~ = S J, a mean over neighbours: + sum_a V_a bulk_excess/2 (J~_a - 1)^2,
+// whose stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
 //
 // Damping by stiffness (damping_stress.hpp) acts on the strain rates of the domains, and on that of
 // J~ by tau S [excess S (cof F : Fdot)] cof F. It does not act on the bracket: where strain varies,
@@ -101,14 +101,14 @@ struct NodalForce {
   }
 };
 
-/// Stress of -K(u) p. Damped: with `over` times the stress of -D(u) p.
+/// Stress of -K(u) p. Damped: with `damping_scale` times the stress of -D(u) p.
 template <class B, class Material, template <class> class Tangent, bool Damped, bool Smoothed>
 struct NodalTangent {
   static constexpr int fields = 2;  // u, p
   static constexpr bool is_tangent = true;
   using T = RowPack<B>;
   RowScales<B> scales;
-  typename B::Real over;  ///< factor of the damping times [1/s]
+  typename B::Real damping_scale;  ///< factor of the damping times [1/s]
   RowPressure<B, Smoothed> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2],
@@ -123,7 +123,7 @@ struct NodalTangent {
       Q = Q + pressure.template at<T>(at.slot, 1) * cofactor(F) +
           pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
     if constexpr (Damped)
-      Q = Q + T(over * scales.damping(region)) *
+      Q = Q + T(damping_scale * scales.damping(region)) *
                   nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
   }
 };
@@ -153,7 +153,7 @@ struct RowVolumes {
 /// Returns the mixed pressures, which an implicit stage has as unknowns beside the displacement.
 /// They are excess (J~ - 1) before smoothing, one per slot, behind the other numbers of
 /// work.pressure; empty: there are none. The stage's tangent and potential take them instead of the
-/// pressures of the volumes; see carried_pressures.hpp.
+/// pressures of the volumes; see mixed_pressures.hpp.
 template <class B>
 Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work) {
   const auto slots = static_cast<std::size_t>(rows.slots());
@@ -170,10 +170,10 @@ struct SmoothRows {
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     using T = RowPack<B>;
     const RowsAt<B> at(item);
-    const T excess = T(rows.excess(rows.region(at.slice)));
+    const T bulk_excess = T(rows.bulk_excess(rows.region(at.slice)));
     for (int k = 0; k < fields; ++k) {
       T x = smoothed<B>(rows, from.data() + k, fields, at);
-      if constexpr (first) x = excess * (k == 0 ? x - T(1) : x);
+      if constexpr (first) x = bulk_excess * (k == 0 ? x - T(1) : x);
       for (int l = 0; l < B::lanes; ++l) to((at.slot + l) * fields + k) = lane(x, l);
     }
   }
@@ -203,7 +203,7 @@ void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
 /// Computes the internal force, with damping where the rows have it. Without flags, nothing watches
 /// for inverted domains.
 template <class B, class Material>
-void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
+void nodal_force(const typename B::Exec& exec, const LevelData<B>& level, const State<B>& state,
                  int evaluation) {
   const NodalRows<B>& rows = level.model.rows;
   by_case(rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
@@ -211,7 +211,7 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
       lay_out<B>(exec, rows, level.nodal, {state.u, state.v});
     else
       lay_out<B>(exec, rows, level.nodal, {state.u});
-    by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
       constexpr int fields = damped ? 2 : 1;
       if constexpr (smoothed) smooth_pressures<B, fields>(exec, rows, level.nodal);
       by_case(level.flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
@@ -226,24 +226,26 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
 
 /// Computes -K(u) p. An empty u: K about the state whose gradients are kept.
 template <class B, class Material, template <class> class Tangent>
-void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                   const Vectors<B>& p, double over) {
+void nodal_tangent(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
+                   const Vectors<B>& p, double damping_scale) {
   const NodalRows<B>& rows = level.model.rows;
   const bool kept = u.extent(0) == 0;
   if (kept)
     lay_out<B>(exec, rows, level.nodal, {p});
   else
     lay_out<B>(exec, rows, level.nodal, {u, p});
-  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed)
       smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
-    by_case(over > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
-      launch_rows<B>(
-          exec, "plica::nodal_tangent", level,
-          NodalTangent<B, Material, Tangent, damped, smoothed>{
-              RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
-          kept);
-    });
+    by_case(damping_scale > 0 && rows.damping.extent(0) > 0,
+            [&]<bool damped>(std::bool_constant<damped>) {
+              launch_rows<B>(exec, "plica::nodal_tangent", level,
+                             NodalTangent<B, Material, Tangent, damped, smoothed>{
+                                 RowScales<B>(rows),
+                                 static_cast<typename B::Real>(damping_scale),
+                                 {level.nodal.pressure, 2}},
+                             kept);
+            });
   });
 }
 
@@ -278,14 +280,14 @@ struct NodalEnergy {
                half * T(rows.stabiliser(region)) * (half * spread - volume * inner(G[0], G[0]));
     if constexpr (Smoothed) {
       const T x = smoothed<B>(rows, work.ratio.data(), 1, at) - T(1);
-      const T excess = T(rows.excess(region));
+      const T bulk_excess = T(rows.bulk_excess(region));
       // the augmented Lagrangian, which has its minimum where the energy has it
       if (carried.extent(0) > 0) {
-        const T q = load_rows<B>(&carried(at.slot)), away = x - q / excess;
-        const T augmented = T(Kokkos::min(rows.excess(region), 100 * rows.stabiliser(region)));
+        const T q = load_rows<B>(&carried(at.slot)), away = x - q / bulk_excess;
+        const T augmented = T(Kokkos::min(rows.bulk_excess(region), 100 * rows.stabiliser(region)));
         energy += volume * (q * x + half * augmented * away * away);
       } else {
-        energy += half * excess * volume * x * x;
+        energy += half * bulk_excess * volume * x * x;
       }
     }
     for (int l = 0; l < B::lanes; ++l) {
@@ -296,10 +298,10 @@ struct NodalEnergy {
 };
 
 template <class B, class Material>
-void nodal_energy(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
+void nodal_energy(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
-  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed)
       for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
     for_rows<B>(exec, "plica::nodal_energy", rows,
@@ -315,7 +317,7 @@ struct NodalStress {
   NodalRows<B> rows;
   NodalWork<B> work;
   RowPressure<B, Smoothed> pressure;
-  Scalars<B> lost;  ///< relaxed stress; see StressMemory
+  Scalars<B> relaxed;  ///< relaxed stress; see ViscousHistory
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[1];
@@ -326,7 +328,8 @@ struct NodalStress {
     const int region = rows.region(at.slice);
     Mat3<T> sigma = cauchy_stress<Material>(
         F, load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot));
-    if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, T>(lost, at.slot));
+    if (relaxed.extent(0) > 0)
+      sigma = sigma - pushed_forward(F, load_symmetric<B, T>(relaxed, at.slot));
     if constexpr (Smoothed) sigma = sigma + Mat3<T>::diagonal(pressure.template at<T>(at.slot, 0));
     const T equivalent = von_mises(sigma);
     for (int l = 0; l < B::lanes; ++l) {
@@ -354,7 +357,7 @@ struct MeanOfDomains {
 };
 
 template <class B>
-void mean_of_domains(const typename B::Exec& exec, const Level<B>& level,
+void mean_of_domains(const typename B::Exec& exec, const LevelData<B>& level,
                      const Scalars<B>& von_mises, const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
   update_vertices<B>(exec, "plica::nodal_means", level.model.vertices,
@@ -362,15 +365,15 @@ void mean_of_domains(const typename B::Exec& exec, const Level<B>& level,
 }
 
 template <class B, class Material>
-void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+void nodal_stress(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                   const Scalars<B>& von_mises, const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
-  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) smooth_pressures<B, 1>(exec, rows, level.nodal);
     for_rows<B>(exec, "plica::nodal_stress", rows,
                 NodalStress<B, Material, smoothed>{
-                    rows, level.nodal, {level.nodal.pressure, 1}, level.stress.lost});
+                    rows, level.nodal, {level.nodal.pressure, 1}, level.stress.relaxed});
   });
   mean_of_domains<B>(exec, level, von_mises, J);
 }
@@ -387,7 +390,7 @@ void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vec
                                              const NodalRows<__VA_ARGS__>&,                   \
                                              const RowVolumes<__VA_ARGS__, 1>&);              \
   EXTERN template void mean_of_domains<__VA_ARGS__>(                                          \
-      const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&,       \
+      const __VA_ARGS__::Exec&, const LevelData<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&,   \
       const Scalars<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ELEMENTS(Real, Exec) PLICA_NODAL_ELEMENTS(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_PRECISION(PLICA_EXTERN_NODAL_ELEMENTS)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/inlining.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -109,7 +109,7 @@ struct KeepGradients {
 };
 
 template <class B>
-void keep_gradients(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
+void keep_gradients(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
   for_rows<B>(exec, "plica::nodal_gradients", rows, KeepGradients<B>{rows, level.nodal});
@@ -239,7 +239,7 @@ struct RowForces {
 };
 
 template <class B, class Integrand>
-void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level,
+void launch_rows(const typename B::Exec& exec, const char* label, const LevelData<B>& level,
                  const Integrand& integrand, bool kept = false) {
   const NodalRows<B>& rows = level.model.rows;
   for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand, kept});
@@ -256,7 +256,7 @@ void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>
       const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
       const Vectors<__VA_ARGS__>(&)[2]);                                                      \
   EXTERN template void keep_gradients<__VA_ARGS__>(                                           \
-      const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&, const Vectors<__VA_ARGS__>&);      \
+      const __VA_ARGS__::Exec&, const LevelData<__VA_ARGS__>&, const Vectors<__VA_ARGS__>&);  \
   EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*,           \
                                              const NodalRows<__VA_ARGS__>&,                   \
                                              const RowForces<__VA_ARGS__>&);

@@ -70,7 +70,7 @@ KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
 
 /// Computes turned = R^T force at a vertex.
 template <class B>
-KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a,
+KOKKOS_INLINE_FUNCTION void turn_force(const CoarseInverseMass<B>& filter, int a,
                                        const Vec3<typename B::Real>& force) {
   set_vector<B>(filter.turned, a,
                 transpose(matrix_at<typename B::Real>(filter.rotation, a)) * force);
@@ -78,7 +78,7 @@ KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a,
 
 template <class B>
 struct TurnForces {
-  CoarseFilter<B> filter;
+  CoarseInverseMass<B> filter;
   Vectors<B> force;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     turn_force(filter, a, vector_at<B>(force, a));
@@ -87,7 +87,7 @@ struct TurnForces {
 
 /// Restricts to the coarsest level, and applies `turn` to the result there.
 template <class B, class Turn>
-struct DownToAxes {
+struct RestrictToFrames {
   MultiplyRows<B, float> down;
   Turn turn;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { down(a), turn(a); }
@@ -98,7 +98,7 @@ struct DownToAxes {
 
 /// Number of vertices of a work item.
 template <class B>
-constexpr int group_size = B::for_cpu ? CoarseFilter<B>::group : 1;
+constexpr int group_size = B::for_cpu ? CoarseInverseMass<B>::group : 1;
 template <class B>
 constexpr int groups_of(int vertices) {
   return (vertices + group_size<B> - 1) / group_size<B>;
@@ -128,9 +128,9 @@ KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int colum
 /// Computes S R^T force of a work item's vertices, in their frames. 36 bytes and 18 flops per pair
 /// of vertices.
 template <class B>
-KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
+KOKKOS_INLINE_FUNCTION void filtered(const CoarseInverseMass<B>& filter, int item,
                                      typename B::Real (&y)[1][3 * group_size<B>]) {
-  dense_rows<B, 3 * group_size<B>, 1, CoarseFilter<B>::block>(
+  dense_rows<B, 3 * group_size<B>, 1, CoarseInverseMass<B>::block>(
       filter.matrix.data(), item, 3 * filter.vertices, filter.turned.data(), y);
 }
 
@@ -138,7 +138,7 @@ KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
 template <class B>
 struct AnswerOfCoarsest {
   using Real = typename B::Real;
-  CoarseFilter<B> filter;
+  CoarseInverseMass<B> filter;
   Vectors<B> acceleration;
   Real weight;
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/him/coarse_axes.hpp>
+#include <plica/kernels/him/coarse_frames.hpp>
 
 // Step of the hierarchical inverse mass on the finest level: drift by half a step, kick of the
 // momenta, v = A p, drift by half a step; see KickMomentum.
@@ -9,7 +9,7 @@ namespace plica {
 /// Factor c of this step by which KickMomentum reduces p - m v. It is given, or 0.3 times the root
 /// mean square of the angles by which the coarsest frames turned in the last step, at most 1e-4.
 template <class B>
-struct Loss {
+struct DetailDissipation {
   Doubles<B> turned;  ///< mean square of the angles [rad^2]
   double given;       ///< c, or < 0: chosen from the angles
   KOKKOS_INLINE_FUNCTION double operator()() const {
@@ -67,7 +67,7 @@ struct KickMomentum {
   Vectors<B> f, v, p;
   ContactForces<B> contact;  ///< forces of the last step
   RigidMotion<B> rigid;      ///< rigid part of p - m v
-  Loss<B> loss;
+  DetailDissipation<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
@@ -97,7 +97,7 @@ struct TakeExpectedContact {
 };
 
 /// Kicks the velocities, adds contact's part to velocities and momenta, and makes the second drift.
-/// Sums up t^2 da.df and -dx.df for WatchSpectrum, d: change since the last step.
+/// Sums up t^2 da.df and -dx.df for WatchStability, d: change since the last step.
 template <class B>
 struct KickAndDrift {
   using Real = typename B::Real;
@@ -129,12 +129,12 @@ struct KickAndDrift {
 /// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over the last step's
 /// motion. Stability is lost at 4; then the fastest motions take over, and with them the mean.
 /// `state` has three numbers: how often running the mean was above 3.4; 1 where that was twice or a
-/// sum is not finite, 2 where the force of frames was not found (to 1 %, see RoundOfAxes); the
+/// sum is not finite, 2 where the force of frames was not found (to 1 %, see FrameRound); the
 /// largest mean.
 template <class B>
-struct WatchSpectrum {
+struct WatchStability {
   Doubles<B> sums, state;
-  RoundOfAxes<B> last;
+  FrameRound<B> last;
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     const double answer = sums(0), work = sums(1);
@@ -150,14 +150,14 @@ struct WatchSpectrum {
 /// Ends a step after its sums: watches the spectrum, and sets the mean square of the angles.
 template <class B>
 struct EndOfStep {
-  WatchSpectrum<B> watch;
-  Doubles<B> angles, turned;  ///< see CoarseAxes and Loss
-  int axes;
+  WatchStability<B> watch;
+  Doubles<B> angles, turned;  ///< see FrameFields and Loss
+  int frames;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     watch();
     double sum = 0;
     for (std::size_t i = 0; i < angles.extent(0); ++i) sum += angles(i);
-    turned(0) = axes > 0 ? sum / axes : 0;
+    turned(0) = frames > 0 ? sum / frames : 0;
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/path.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -70,7 +70,7 @@ struct PrescribeMotion {
 /// Puts the vertices whose motion is given into a level's state at a time [s]; see path_step() for
 /// `ahead`.
 template <class B>
-void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
+void prescribe(const typename B::Exec& exec, const LevelData<B>& level, const State<B>& state,
                double time, double ahead = 0) {
   if (level.prescribed.count > 0)
     update_vertices<B>(exec, "plica::prescribe", level.prescribed.count,

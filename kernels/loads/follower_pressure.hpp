@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
 

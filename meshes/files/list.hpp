@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <filesystem>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <plica/meshes/files/writing.hpp>
 
 namespace plica {
@@ -23,7 +23,7 @@ namespace plica {
 /// value and what was expected. In surfaces up to one bad face in a hundred is left out and
 /// counted. Vectors with three components in $NodeData and $ElementData are read; other sections
 /// ($Periodic, ...) are skipped.
-RawMesh parse_msh(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_msh(const FileBytes& file, MeshReport& report);
 
 /// Writes Gmsh MSH files, text or binary. Regions become physical groups of volumes. Groups of
 /// lower dimension keep their elements; other vertex sets become physical groups of points. Tags
@@ -47,14 +47,14 @@ WrittenMesh write_msh41_binary(const std::filesystem::path& path, const TetMesh&
 ///
 /// The parser is as strict as parse_msh(). The format has no end mark: a file that is cut between
 /// two arrays looks complete.
-RawMesh parse_vtk(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_vtk(const FileBytes& file, MeshReport& report);
 
 /// Reads the cells of an unstructured grid, or of polygonal data, in VTK's XML format. The grid is
 /// in one piece ("VTK XML file formats" in its documentation). Arrays are text, base64, or
 /// appended, raw or in base64. They are in either byte order, and may be compressed by zlib or LZ4.
 ///
 /// Regions and numbers are those of parse_vtk(). The parser is as strict as parse_msh().
-RawMesh parse_vtu(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_vtu(const FileBytes& file, MeshReport& report);
 
 /// Writes VTK's legacy format 3.0, text or binary, or its XML format with raw appended arrays.
 /// Regions are numbers in the cells' array "region". Neither format has vertex sets.
@@ -68,7 +68,7 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
 /// Reads the elements of a Medit file in text (Frey, MEDIT: an interactive mesh visualization
 /// software, INRIA RT-0253). Its references number regions, named like "reference_3", and groups.
 /// Coordinates are read as metres. The parser is as strict as parse_msh().
-RawMesh parse_medit(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_medit(const FileBytes& file, MeshReport& report);
 
 /// Writes Medit in text, with regions and groups as references; names are left out.
 WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh,
@@ -83,10 +83,10 @@ WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh,
 ///
 /// The parser is as strict as parse_msh(). The first line of each file gives its length; the end of
 /// a file may be marked by a comment only.
-RawMesh parse_tetgen(const MemoryFile& elements, const MemoryFile& nodes, MeshReport& report);
+ParsedMesh parse_tetgen(const FileBytes& elements, const FileBytes& nodes, MeshReport& report);
 
 /// Reads a pair of TetGen files when one of them is given; the other one is loaded from its folder.
-RawMesh parse_tetgen(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_tetgen(const FileBytes& file, MeshReport& report);
 
 /// Writes NAME.node and NAME.ele of TetGen, numbered from 1. Regions are the attribute of
 /// tetrahedra. Vertex sets are boundary markers, of which a vertex has one at most.
@@ -101,7 +101,7 @@ WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh,
 ///
 /// The parser is as strict as parse_msh(). The format has no end mark: a file that is cut between
 /// two faces looks complete.
-RawMesh parse_obj(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_obj(const FileBytes& file, MeshReport& report);
 
 /// Reads the triangles of an STL file, text or binary. A file is binary if its size fits the number
 /// of triangles, as the title of a binary file may begin like text. Corners with exactly equal
@@ -109,17 +109,17 @@ RawMesh parse_obj(const MemoryFile& file, MeshReport& report);
 /// solids are one surface. Coordinates are read as metres.
 ///
 /// The parser is as strict as parse_msh().
-RawMesh parse_stl(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_stl(const FileBytes& file, MeshReport& report);
 
 /// Reads vertices and faces of a PLY file (Turk, The PLY polygon file format, 1994), text or
 /// binary; other elements and properties are left out. Coordinates are read as metres. The parser
 /// is as strict as parse_msh().
-RawMesh parse_ply(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_ply(const FileBytes& file, MeshReport& report);
 
 /// Reads vertices and faces of an OFF file of Geomview in text. Variants such as COFF and NOFF are
 /// supported; colours, normals and textures are left out. Coordinates are read as metres. The
 /// parser is as strict as parse_msh().
-RawMesh parse_off(const MemoryFile& file, MeshReport& report);
+ParsedMesh parse_off(const FileBytes& file, MeshReport& report);
 
 /// Writes Wavefront OBJ, PLY in binary, OFF in text, or STL, text or binary. Binary STL keeps seven
 /// digits of the coordinates.
@@ -133,7 +133,7 @@ WrittenMesh write_stl_binary(const std::filesystem::path& path, const TriangleSu
 struct MeshFormat {
   const char* extension;    ///< lower case, without the dot
   const char* description;  ///< text for help
-  RawMesh (*parse)(const MemoryFile& file, MeshReport& report);
+  ParsedMesh (*parse)(const FileBytes& file, MeshReport& report);
 };
 
 /// All formats that hold tetrahedra. A new format is one source file. Its parser and writer are

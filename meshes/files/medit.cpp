@@ -33,11 +33,11 @@ std::string name_of(std::int64_t reference) { return "reference_" + std::to_stri
 
 class MeditParser {
  public:
-  MeditParser(const MemoryFile& file, MeshReport& report) : lines_(file, '#'), report_(report) {
+  MeditParser(const FileBytes& file, MeshReport& report) : lines_(file, '#'), report_(report) {
     raw_.file = file.name;
   }
 
-  RawMesh parse() {
+  ParsedMesh parse() {
     while (!ended_ && (pending_ || lines_.next())) section();
     if (dimension_ == 0 || raw_.vertices.empty())
       lines_.expected(dimension_ == 0 ? "Dimension 3" : "Vertices");
@@ -117,7 +117,7 @@ class MeditParser {
 
   TextLines lines_;
   MeshReport& report_;
-  RawMesh raw_;
+  ParsedMesh raw_;
   std::optional<TextNumbers> numbers_;
   std::int64_t dimension_ = 0;
   // pending_: the current line has a keyword that has not been read yet
@@ -128,7 +128,7 @@ class MeditParser {
 
 }  // namespace
 
-RawMesh parse_medit(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_medit(const FileBytes& file, MeshReport& report) {
   return MeditParser(file, report).parse();
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/list.hpp>
-#include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 
 namespace plica {
 
@@ -12,10 +12,10 @@ TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report, Flaws f
   return read_mesh(load_file(path), report, flaws);
 }
 
-TetMesh read_mesh(const MemoryFile& file, MeshReport* report, Flaws flaws) {
+TetMesh read_mesh(const FileBytes& file, MeshReport* report, Flaws flaws) {
   MeshReport found;
-  const RawMesh raw = format_of(file.name, mesh_formats, "mesh").parse(file, found);
-  TetMesh mesh = sound_mesh(raw, found, flaws);
+  const ParsedMesh raw = format_of(file.name, mesh_formats, "mesh").parse(file, found);
+  TetMesh mesh = validated_mesh(raw, found, flaws);
   if (report) *report = std::move(found);
   return mesh;
 }
@@ -26,11 +26,11 @@ TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* r
   return read_surface(load_file(path), report);
 }
 
-TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report) {
+TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report) {
   MeshReport found;
   SurfaceReport repaired;
-  const RawMesh raw = format_of(file.name, surface_formats, "surface").parse(file, found);
-  TriangleSurface surface = sound_surface(raw, found, repaired);
+  const ParsedMesh raw = format_of(file.name, surface_formats, "surface").parse(file, found);
+  TriangleSurface surface = validated_surface(raw, found, repaired);
   if (report) *report = std::move(repaired);
   return surface;
 }
@@ -45,16 +45,16 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) 
     if (!holds(mesh_formats, format.extension)) formats.push_back(format);
   const MeshFormat& format = format_of(path, formats, "mesh or surface");
   MeshReport report;
-  const RawMesh raw = format.parse(load_file(path), report);
+  const ParsedMesh raw = format.parse(load_file(path), report);
   const bool may_be_mesh = holds(mesh_formats, format.extension),
              may_be_surface = holds(surface_formats, format.extension);
   if (!may_be_mesh ||
       (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
     ReadSurface read;
-    read.surface = sound_surface(raw, report, read.report);
+    read.surface = validated_surface(raw, report, read.report);
     return read;
   }
-  TetMesh mesh = sound_mesh(raw, report);
+  TetMesh mesh = validated_mesh(raw, report);
   return ReadMesh{std::move(mesh), std::move(report)};
 }
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/files/memory_file.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/files/writing.hpp>
 #include <string>
 #include <variant>
@@ -17,33 +17,34 @@ namespace plica {
 /// @param path    path of the file
 /// @param report  if given, gets what was repaired and left out
 /// @param flaws   kept: a mesh for repair_mesh(), whose tetrahedra may have no volume
-/// @throw InputError for an unknown extension, and as the parser of the format and sound_mesh() do
+/// @throw InputError for an unknown extension, and as the parser of the format and validated_mesh()
+/// do
 TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
                   Flaws flaws = Flaws::refused);
 
 /// Reads a tetrahedral mesh from a file in memory, in the format its extension names.
-TetMesh read_mesh(const MemoryFile& file, MeshReport* report = nullptr,
+TetMesh read_mesh(const FileBytes& file, MeshReport* report = nullptr,
                   Flaws flaws = Flaws::refused);
 
 /// Reads the triangles of a surface in the format its extension names (see list.hpp), in any case
 /// of letters.
 /// @param path    path of the file
 /// @param report  if given, gets what was repaired and left out, and whether the surface is closed
-/// @throw InputError for an unknown extension, and as the parser of the format and sound_surface()
-/// do
+/// @throw InputError for an unknown extension, and as the parser of the format and
+/// validated_surface() do
 TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report = nullptr);
 
 /// Reads the triangles of a surface from a file in memory, in the format its extension names.
-TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report = nullptr);
+TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report = nullptr);
 
 /// Mesh that was read from a file.
 struct ReadMesh {
-  TetMesh mesh;       ///< mesh that passed sound_mesh()
+  TetMesh mesh;       ///< mesh that passed validated_mesh()
   MeshReport report;  ///< report of what was repaired and left out
 };
 /// Surface that was read from a file.
 struct ReadSurface {
-  TriangleSurface surface;  ///< surface that passed sound_surface()
+  TriangleSurface surface;  ///< surface that passed validated_surface()
   SurfaceReport report;     ///< report of what was repaired and left out
 };
 

@@ -70,7 +70,7 @@ std::string MshGather::name_of(const Group& group) const {
   return found != names_.end() ? found->second : "physical_" + std::to_string(group.second);
 }
 
-RawMesh MshGather::take() {
+ParsedMesh MshGather::take() {
   name_regions(raw_, tet_groups_, [this](std::int64_t tag) { return name_of({3, tag}); });
   for (auto& [key, group] : groups_) {
     group.name = name_of(key), group.dimension = key.first, group.tag = key.second;

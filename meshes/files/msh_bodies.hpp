@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 #include <map>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <plica/meshes/files/reading.hpp>
 #include <span>
 #include <string>
@@ -40,7 +40,7 @@ inline constexpr ElementKind msh_elements[] = {
     {92, "third-order hexahedron", 3, 64, 8},
 };
 
-/// Builder of a RawMesh from the parts that all MSH formats have: nodes, elements, and groups of
+/// Builder of a ParsedMesh from the parts that all MSH formats have: nodes, elements, and groups of
 /// elements that may have a name.
 class MshGather {
  public:
@@ -57,13 +57,13 @@ class MshGather {
   /// Adds vectors of nodes or elements; reads `count` times tag, x, y, z from `numbers`.
   void add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers);
   /// Returns the mesh and empties this; call it once.
-  RawMesh take();
+  ParsedMesh take();
 
  private:
   using Group = std::pair<int, std::int64_t>;  // dimension, physical tag
   std::string name_of(const Group& group) const;
 
-  RawMesh raw_;
+  ParsedMesh raw_;
   MeshReport& report_;
   std::map<Group, std::string> names_;
   std::map<std::string, Group> regions_;  // names of volumes, which are unique

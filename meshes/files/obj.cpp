@@ -13,9 +13,9 @@ constexpr std::string_view left_out[] = {"vn", "vt", "g", "o", "s", "usemtl", "m
 
 class ObjParser {
  public:
-  explicit ObjParser(const MemoryFile& file) : lines_(file, '#') { raw_.file = file.name; }
+  explicit ObjParser(const FileBytes& file) : lines_(file, '#') { raw_.file = file.name; }
 
-  RawMesh parse() {
+  ParsedMesh parse() {
     while (lines_.next()) line();
     return std::move(raw_);
   }
@@ -27,7 +27,7 @@ class ObjParser {
   std::optional<std::int64_t> corner(std::size_t word);
 
   TextLines lines_;
-  RawMesh raw_;
+  ParsedMesh raw_;
 };
 
 void ObjParser::line() {
@@ -89,7 +89,7 @@ void ObjParser::face() {
 
 }  // namespace
 
-RawMesh parse_obj(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_obj(const FileBytes& file, MeshReport& report) {
   report.format = "OBJ";
   return ObjParser(file).parse();
 }

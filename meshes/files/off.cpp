@@ -17,7 +17,7 @@ bool is_heading(std::string_view word) {
   return word.empty();
 }
 
-void read_vertex(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& raw) {
+void read_vertex(std::int64_t i, std::int64_t count, TextLines& lines, ParsedMesh& raw) {
   if (!lines.next())
     lines.expected("vertex " + std::to_string(i + 1) + " of " + std::to_string(count));
   constexpr const char* what[] = {"coordinate x", "coordinate y", "coordinate z"};
@@ -27,7 +27,7 @@ void read_vertex(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& 
   raw.vertices.push_back(vertex);
 }
 
-void read_face(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& raw) {
+void read_face(std::int64_t i, std::int64_t count, TextLines& lines, ParsedMesh& raw) {
   if (!lines.next())
     lines.expected("face " + std::to_string(i + 1) + " of " + std::to_string(count));
   const Place place = lines.place();
@@ -46,8 +46,8 @@ void read_face(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& ra
 
 }  // namespace
 
-RawMesh parse_off(const MemoryFile& file, MeshReport& report) {
-  RawMesh raw;
+ParsedMesh parse_off(const FileBytes& file, MeshReport& report) {
+  ParsedMesh raw;
   raw.file = file.name;
   report.format = "OFF";
   TextLines lines(file, '#');

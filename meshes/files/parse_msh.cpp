@@ -10,9 +10,9 @@ namespace {
 
 class MshParser {
  public:
-  MshParser(const MemoryFile& file, MeshReport& report)
+  MshParser(const FileBytes& file, MeshReport& report)
       : lines_(file), report_(report), gather_(file.name, report) {}
-  RawMesh parse();
+  ParsedMesh parse();
 
  private:
   using Section = void (MshParser::*)();
@@ -34,7 +34,7 @@ class MshParser {
   auto body(const Read& read) {
     return form_.after(lines_, read);
   }
-  const MemoryFile& file() const { return lines_.file(); }
+  const FileBytes& file() const { return lines_.file(); }
 
   TextLines lines_;
   MeshReport& report_;
@@ -225,7 +225,7 @@ void MshParser::data() {
   end_of(section.substr(1), whole[2] + " vectors");
 }
 
-RawMesh MshParser::parse() {
+ParsedMesh MshParser::parse() {
   format();
   while (lines_.next()) section();
   std::string skipped;
@@ -238,7 +238,7 @@ RawMesh MshParser::parse() {
 
 }  // namespace
 
-RawMesh parse_msh(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_msh(const FileBytes& file, MeshReport& report) {
   return MshParser(file, report).parse();
 }
 

@@ -151,10 +151,10 @@ bool LegacyArrays::attribute(const std::string& keyword, TextLines& lines) {
 
 class VtkParser {
  public:
-  VtkParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) {
+  VtkParser(const FileBytes& file, MeshReport& report) : lines_(file), report_(report) {
     grid_.file = file.name;
   }
-  RawMesh parse();
+  ParsedMesh parse();
 
  private:
   using Section = void (VtkParser::*)();
@@ -343,7 +343,7 @@ void VtkParser::data(std::size_t count, bool of_cells) {
   arrays_.begin(tuples, of_cells);
 }
 
-RawMesh VtkParser::parse() {
+ParsedMesh VtkParser::parse() {
   header();
   while (lines_.next()) section();
   for (const char* name : {"DATASET", "POINTS", "CELLS", "CELL_TYPES"})
@@ -353,7 +353,7 @@ RawMesh VtkParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtk(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_vtk(const FileBytes& file, MeshReport& report) {
   return VtkParser(file, report).parse();
 }
 

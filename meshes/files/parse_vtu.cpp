@@ -12,11 +12,11 @@ namespace {
 
 class VtuParser {
  public:
-  VtuParser(const MemoryFile& file, MeshReport& report)
+  VtuParser(const FileBytes& file, MeshReport& report)
       : file_(file), report_(report), arrays_(file) {
     grid_.file = file.name;
   }
-  RawMesh parse();
+  ParsedMesh parse();
 
  private:
   void take(const XmlElement& element);
@@ -35,7 +35,7 @@ class VtuParser {
     refuse(file_.name, place, message);
   }
 
-  const MemoryFile& file_;
+  const FileBytes& file_;
   MeshReport& report_;
   VtuArrays arrays_;
   VtkGrid grid_;
@@ -190,7 +190,7 @@ void VtuParser::read_vectors() {
   read(point_data_, "NumberOfPoints", true);
 }
 
-RawMesh VtuParser::parse() {
+ParsedMesh VtuParser::parse() {
   for (const XmlElement& element : vtu_elements(file_)) take(element);
   if (!piece_) fail(root_->place, "there is no <Piece>");
   read_points();
@@ -207,7 +207,7 @@ RawMesh VtuParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtu(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_vtu(const FileBytes& file, MeshReport& report) {
   return VtuParser(file, report).parse();
 }
 

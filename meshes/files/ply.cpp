@@ -37,11 +37,11 @@ struct Element {
 
 class PlyParser {
  public:
-  PlyParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) {
+  PlyParser(const FileBytes& file, MeshReport& report) : lines_(file), report_(report) {
     raw_.file = file.name;
   }
 
-  RawMesh parse() {
+  ParsedMesh parse() {
     header();
     form_.after(lines_, [&](Numbers& numbers) {
       for (const Element& element : elements_) read(element, numbers);
@@ -62,7 +62,7 @@ class PlyParser {
 
   TextLines lines_;
   MeshReport& report_;
-  RawMesh raw_;
+  ParsedMesh raw_;
   NumberForm form_;
   std::vector<Element> elements_;
 };
@@ -191,7 +191,7 @@ void PlyParser::read_faces(const Element& element, Numbers& numbers) {
 
 }  // namespace
 
-RawMesh parse_ply(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_ply(const FileBytes& file, MeshReport& report) {
   return PlyParser(file, report).parse();
 }
 

@@ -31,12 +31,12 @@ std::string lower_case(std::string_view word) {
 }
 
 // Some programs end a text with zero bytes, or with CP/M's end mark 0x1a
-TextLines::TextLines(const MemoryFile& file, char comment)
+TextLines::TextLines(const FileBytes& file, char comment)
     : file_(file),
       comment_(comment),
       end_(file.bytes.find_last_not_of(std::string_view("\0\x1a", 2)) + 1) {}
 
-TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end,
+TextLines::TextLines(const FileBytes& file, std::size_t begin, std::size_t end,
                      std::int64_t first_line)
     : file_(file),
       next_(begin),

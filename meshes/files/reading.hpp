@@ -2,7 +2,7 @@
 #pragma once
 #include <bit>
 #include <cstdint>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +20,9 @@ class TextLines {
  public:
   /// Reads a whole file, except zero bytes at its end. The file must outlive this.
   /// @param comment  starts a comment, which ends with the line; 0: there are none
-  explicit TextLines(const MemoryFile& file, char comment = 0);
+  explicit TextLines(const FileBytes& file, char comment = 0);
   /// Reads the bytes [begin, end) of a file, which begin in line `first_line`.
-  TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
+  TextLines(const FileBytes& file, std::size_t begin, std::size_t end, std::int64_t first_line);
 
   /// Goes to the next line that is not blank; returns false at the end of the file.
   bool next();
@@ -35,7 +35,7 @@ class TextLines {
   const std::vector<std::string_view>& words() const { return words_; }
   std::size_t bytes_left() const { return end_ - next_; }
   std::size_t next_byte() const { return next_; }  ///< first byte of the next line
-  const MemoryFile& file() const { return file_; }
+  const FileBytes& file() const { return file_; }
   Place place() const { return place_; }
 
   /// Returns a word as a number. Throws an InputError with the name `what` if it is missing, no
@@ -57,7 +57,7 @@ class TextLines {
   std::string_view word(std::size_t word, std::string_view what) const;
   void split();
 
-  const MemoryFile& file_;
+  const FileBytes& file_;
   char comment_ = 0;
   std::size_t next_ = 0;  // first byte of the next line
   std::size_t end_;

@@ -23,7 +23,7 @@ struct Exactly {
 
 class StlGather {
  public:
-  explicit StlGather(RawMesh& raw) : raw_(raw) {}
+  explicit StlGather(ParsedMesh& raw) : raw_(raw) {}
 
   void corner(std::size_t k, Point point, const Place& place) {
     point.array() += 0.0;  // makes -0 to 0: both must have one hash
@@ -39,7 +39,7 @@ class StlGather {
   std::int64_t triangles() const { return triangle_.tag; }
 
  private:
-  RawMesh& raw_;
+  ParsedMesh& raw_;
   RawTriangle triangle_;
   std::unordered_map<Point, std::int64_t, Exactly> index_;
 };
@@ -68,7 +68,7 @@ void read_facet(TextLines& lines, StlGather& gather) {
   expect_line(lines, "endfacet", nullptr, "endfacet");
 }
 
-void read_text(const MemoryFile& file, StlGather& gather) {
+void read_text(const FileBytes& file, StlGather& gather) {
   TextLines lines(file);
   bool open = false;
   while (lines.next()) {
@@ -84,14 +84,14 @@ void read_text(const MemoryFile& file, StlGather& gather) {
   if (open) lines.expected("facet or endsolid");
 }
 
-std::uint32_t told_triangles(const MemoryFile& file) {
+std::uint32_t told_triangles(const FileBytes& file) {
   if (file.bytes.size() < head) return 0;
   ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(title), std::endian::little,
                       {0, title});
   return static_cast<std::uint32_t>(numbers.integer(NumberType::uint32, "the number of triangles"));
 }
 
-void read_binary(const MemoryFile& file, StlGather& gather) {
+void read_binary(const FileBytes& file, StlGather& gather) {
   ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(head), std::endian::little,
                       {0, head});
   constexpr NumberType real = NumberType::float32;
@@ -124,8 +124,8 @@ Facet facet_of(const TriangleSurface& surface, const std::array<int, 3>& triangl
 
 }  // namespace
 
-RawMesh parse_stl(const MemoryFile& file, MeshReport& report) {
-  RawMesh raw;
+ParsedMesh parse_stl(const FileBytes& file, MeshReport& report) {
+  ParsedMesh raw;
   raw.file = file.name;
   StlGather gather(raw);
   const std::size_t told = told_triangles(file), bytes = head + facet_bytes * told;

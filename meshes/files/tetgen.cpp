@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <map>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/list.hpp>
-#include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/reading.hpp>
 
 namespace plica {
@@ -23,7 +23,7 @@ void check_end(TextLines& lines, std::int64_t count, const char* what) {
     lines.expected("the end of the file after " + std::to_string(count) + " " + what);
 }
 
-void read_nodes(const MemoryFile& file, RawMesh& raw) {
+void read_nodes(const FileBytes& file, ParsedMesh& raw) {
   TextLines lines(file, '#');
   TextNumbers numbers(lines);
   constexpr const char* heading =
@@ -55,7 +55,7 @@ void read_nodes(const MemoryFile& file, RawMesh& raw) {
   }
 }
 
-void read_tets(const MemoryFile& file, RawMesh& raw, MeshReport& report) {
+void read_tets(const FileBytes& file, ParsedMesh& raw, MeshReport& report) {
   TextLines lines(file, '#');
   TextNumbers numbers(lines);
   constexpr const char* heading =
@@ -89,18 +89,18 @@ void read_tets(const MemoryFile& file, RawMesh& raw, MeshReport& report) {
 
 }  // namespace
 
-RawMesh parse_tetgen(const MemoryFile& elements, const MemoryFile& nodes, MeshReport& report) {
+ParsedMesh parse_tetgen(const FileBytes& elements, const FileBytes& nodes, MeshReport& report) {
   report.format = "TetGen .node and .ele";
-  RawMesh raw;
+  ParsedMesh raw;
   raw.file = elements.name, raw.vertex_file = nodes.name;
   read_nodes(nodes, raw);
   read_tets(elements, raw, report);
   return raw;
 }
 
-RawMesh parse_tetgen(const MemoryFile& file, MeshReport& report) {
+ParsedMesh parse_tetgen(const FileBytes& file, MeshReport& report) {
   const bool is_nodes = extension_of(file.name) == "node";
-  const MemoryFile other =
+  const FileBytes other =
       load_file(std::filesystem::path(file.name).replace_extension(is_nodes ? "ele" : "node"));
   return is_nodes ? parse_tetgen(other, file, report) : parse_tetgen(file, other, report);
 }

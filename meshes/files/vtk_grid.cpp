@@ -104,7 +104,7 @@ void VtkGrid::add_cells(int type, const std::vector<PlacedInteger>& points_of_ce
 
 // Adds the triangles of a strip; every second one has the opposite orientation
 void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
-                        RawMesh& raw, MeshReport& report) const {
+                        ParsedMesh& raw, MeshReport& report) const {
   ++report.other_elements["strip of triangles"];
   for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
     const bool odd = k % 2 == 1;
@@ -113,13 +113,13 @@ void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners,
   }
 }
 
-RawMesh VtkGrid::mesh(MeshReport& report) const {
+ParsedMesh VtkGrid::mesh(MeshReport& report) const {
   constexpr std::int64_t strip = 6, pixel = 8, voxel = 11;
   check_ends(*this);
   check_count(*this, types, "types");
   if (!region_array.empty())
     check_count(*this, regions, "values of the array " + shown(region_array));
-  RawMesh raw;
+  ParsedMesh raw;
   raw.file = file;
   raw.vertices = points;
   std::vector<std::int64_t> numbers, corners;

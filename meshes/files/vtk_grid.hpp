@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <plica/meshes/files/reading.hpp>
 #include <string>
 #include <vector>
@@ -89,13 +89,13 @@ struct VtkGrid {
   /// Checks that the arrays fit each other, and returns the mesh. Cells become tetrahedra and
   /// faces; points and lines are counted and checked. Region 3 of the array "region" is named
   /// "region_3". Where all regions are 0 there is one nameless region.
-  RawMesh mesh(MeshReport& report) const;
+  ParsedMesh mesh(MeshReport& report) const;
 
  private:
   void read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points,
                     Numbers& numbers);
   void add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
-                 RawMesh& raw, MeshReport& report) const;
+                 ParsedMesh& raw, MeshReport& report) const;
 };
 
 }  // namespace plica

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/vtu_arrays.hpp>
 #include <pugixml.hpp>
 
@@ -108,7 +108,7 @@ std::string place_of(const XmlElement& array) {
 }  // namespace
 
 const std::string& attribute(const XmlElement& element, const std::string& key,
-                             const MemoryFile& file) {
+                             const FileBytes& file) {
   const auto found = element.attributes.find(key);
   if (found == element.attributes.end())
     refuse(file.name, element.place, "<" + element.name + "> has no " + key);
@@ -116,7 +116,7 @@ const std::string& attribute(const XmlElement& element, const std::string& key,
 }
 
 std::int64_t attribute_count(const XmlElement& element, const std::string& key,
-                             const MemoryFile& file) {
+                             const FileBytes& file) {
   const std::string& text = attribute(element, key, file);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -125,7 +125,7 @@ std::int64_t attribute_count(const XmlElement& element, const std::string& key,
   return value;
 }
 
-NumberType vtu_type(const XmlElement& array, const MemoryFile& file) {
+NumberType vtu_type(const XmlElement& array, const FileBytes& file) {
   const std::string& name = attribute(array, "type", file);
   std::vector<std::string> choices;
   for (const TypeName& known : type_names) {
@@ -137,7 +137,7 @@ NumberType vtu_type(const XmlElement& array, const MemoryFile& file) {
          unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
 }
 
-std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
+std::vector<XmlElement> vtu_elements(const FileBytes& file) {
   const std::string_view all = file.bytes;
   Lines lines(all);
   const auto refuse_at = [&](std::size_t byte, const std::string& message) {

@@ -32,12 +32,12 @@ struct XmlElement {
 /// Returns the elements in the file's order. Appended data may be no XML, so the parser (pugixml)
 /// gets the file up to <AppendedData> only; VtuArrays checks the rest. Throws an InputError with
 /// the line for malformed XML, document types and CDATA.
-std::vector<XmlElement> vtu_elements(const MemoryFile& file);
+std::vector<XmlElement> vtu_elements(const FileBytes& file);
 
 /// Reader of the numbers of a <DataArray>, in all forms in which a file stores them.
 class VtuArrays {
  public:
-  explicit VtuArrays(const MemoryFile& file) : file_(file) {}
+  explicit VtuArrays(const FileBytes& file) : file_(file) {}
 
   /// Reads the attributes of <VTKFile>: byte order, type of the lengths, and compression of arrays
   /// that are not text.
@@ -60,7 +60,7 @@ class VtuArrays {
   std::string_view appended_at(const XmlElement& array) const;
   std::uint64_t length(std::string_view bytes, const Place& place) const;
 
-  const MemoryFile& file_;
+  const FileBytes& file_;
   std::endian order_ = std::endian::little;
   NumberType length_type_ = NumberType::uint32;
   std::string compressor_;  // name of the compressor; empty: none
@@ -70,13 +70,13 @@ class VtuArrays {
 
 /// Returns an attribute; throws an InputError if there is none.
 const std::string& attribute(const XmlElement& element, const std::string& key,
-                             const MemoryFile& file);
+                             const FileBytes& file);
 /// Returns an attribute as an integer; throws an InputError if it is missing, no integer or below
 /// 0.
 std::int64_t attribute_count(const XmlElement& element, const std::string& key,
-                             const MemoryFile& file);
+                             const FileBytes& file);
 /// Returns the type of the numbers of an array; throws an InputError with the choices if the
 /// attribute "type" is missing or unknown.
-NumberType vtu_type(const XmlElement& array, const MemoryFile& file);
+NumberType vtu_type(const XmlElement& array, const FileBytes& file);
 
 }  // namespace plica

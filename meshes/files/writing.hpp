@@ -3,8 +3,8 @@
 #include <bit>
 #include <cstdint>
 #include <plica/core/mesh.hpp>
-#include <plica/meshes/files/memory_file.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace plica {
 
 /// Result of a mesh writer.
 struct WrittenMesh {
-  std::vector<MemoryFile> files;      ///< names and bytes of the files
+  std::vector<FileBytes> files;       ///< names and bytes of the files
   std::vector<std::string> left_out;  ///< sentences, one for each thing that the format cannot hold
 };
 

@@ -2,7 +2,7 @@
 #include <plica/meshes/files/mesh_files.hpp>
 
 int main() {
-  const plica::MemoryFile file{"m.vtu", ""};
+  const plica::FileBytes file{"m.vtu", ""};
   try {
     plica::read_mesh(file);
   } catch (const plica::InputError&) {

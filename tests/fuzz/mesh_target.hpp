@@ -5,7 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <string>
 
 #include "target.hpp"
@@ -42,7 +42,7 @@ inline void check_written(const TetMesh& mesh, const MeshGroups& groups) {
 inline void mesh(const char* name, std::string_view bytes) {
   try {
     MeshReport report;
-    const TetMesh mesh = read_mesh(MemoryFile{name, std::string(bytes)}, &report);
+    const TetMesh mesh = read_mesh(FileBytes{name, std::string(bytes)}, &report);
     check(mesh);
     check_written(mesh, report.groups);
   } catch (const InputError&) {
@@ -52,7 +52,7 @@ inline void mesh(const char* name, std::string_view bytes) {
 inline void surface(const char* name, std::string_view bytes) {
   try {
     SurfaceReport report;
-    const TriangleSurface surface = read_surface(MemoryFile{name, std::string(bytes)}, &report);
+    const TriangleSurface surface = read_surface(FileBytes{name, std::string(bytes)}, &report);
     require(!surface.triangles.empty(), "no triangle");
     for (const auto& triangle : surface.triangles)
       for (const int v : triangle)
@@ -64,11 +64,11 @@ inline void surface(const char* name, std::string_view bytes) {
 // Both files in one, the elements before a '%'
 inline void tetgen(std::string_view bytes) {
   const std::size_t cut = std::min(bytes.find('%'), bytes.size());
-  const MemoryFile elements{"m.ele", std::string(bytes.substr(0, cut))};
-  const MemoryFile nodes{"m.node", std::string(bytes.substr(std::min(cut + 1, bytes.size())))};
+  const FileBytes elements{"m.ele", std::string(bytes.substr(0, cut))};
+  const FileBytes nodes{"m.node", std::string(bytes.substr(std::min(cut + 1, bytes.size())))};
   try {
     MeshReport report;
-    check(sound_mesh(parse_tetgen(elements, nodes, report), report));
+    check(validated_mesh(parse_tetgen(elements, nodes, report), report));
   } catch (const InputError&) {
   }
 }

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 
 #include "target.hpp"
 

@@ -50,7 +50,7 @@ inline void run(std::string_view bytes) {
   if (!Kokkos::is_initialized()) Kokkos::initialize();  // the unit tests have
   try {
     const char* name = bytes.starts_with('#') ? "m.vtk" : "m.msh";
-    const TetMesh mesh = read_mesh(MemoryFile{name, std::string(bytes)});
+    const TetMesh mesh = read_mesh(FileBytes{name, std::string(bytes)});
     if (mesh.tets.size() <= 64) step(mesh);
   } catch (const InputError&) {
   }

@@ -142,8 +142,8 @@ TYPED_TEST(InAnyOrder, InverseOfADenseMatrix) {
 TYPED_TEST(InAnyOrder, AnswerOfTheCoarsestLevel) {
   using B = TypeParam;
   const int n = 21, columns = 3 * n;
-  CoarseFilter<B> filter;
-  constexpr int block = CoarseFilter<B>::block;
+  CoarseInverseMass<B> filter;
+  constexpr int block = CoarseInverseMass<B>::block;
   filter.vertices = n;
   filter.matrix = waves<decltype(filter.matrix)>(
       static_cast<std::size_t>((columns + block - 1) / block * block * columns));

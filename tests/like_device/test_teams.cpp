@@ -8,7 +8,7 @@
 #include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/elastic/nodal_elements.hpp>
-#include <plica/kernels/elastic/remember_stress.hpp>
+#include <plica/kernels/elastic/record_stress.hpp>
 
 #include "support/plain_elements.hpp"
 
@@ -27,7 +27,7 @@ struct Body {
   std::size_t n = mesh.vertices.size();
   Vectors<B> v = device<B>(disorder(n, 0.001, 2)), f{"test.f", n};
   State<B> state{device<B>(disorder(n, 0.001, 1)), v};
-  Level<B> level;
+  LevelData<B> level;
   Model<B>& model = level.model;
 
   Body() {
@@ -39,7 +39,7 @@ struct Body {
   }
   void make_nodal(bool smoothed) {
     NodalConstants constants{{as_list(soft)}, {1e3}, {}, {1e-3}};
-    if (smoothed) constants.excess = {1e4};
+    if (smoothed) constants.bulk_excess = {1e4};
     model.rows = build_nodal_rows<B>(mesh, constants);
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);

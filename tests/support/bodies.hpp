@@ -90,7 +90,7 @@ inline std::vector<std::string> sharing_cycles() {
 
 /// doubts() but for those of elements, which small meshes of linear ones always have.
 inline std::vector<std::string> other_doubts(const Problem& problem) {
-  std::vector<std::string> sentences = doubts(problem);
+  std::vector<std::string> sentences = problem_warnings(problem);
   std::erase_if(sentences,
                 [](const std::string& sentence) { return sentence.starts_with("body.element:"); });
   return sentences;

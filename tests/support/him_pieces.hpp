@@ -41,7 +41,7 @@ struct Pieces {
           alone.integration.cycle = "single", alone.integration.macro_step = 1e-9;
           return alone;
         }()) {
-    const Level<Host>& level = probe.at(0);
+    const LevelData<Host>& level = probe.at(0);
     std::vector<std::vector<char>> constrained;
     for (std::size_t i = 0; i < levels.size(); ++i) {
       constrained.emplace_back(levels[i].vertices.size(), 0);
@@ -67,8 +67,8 @@ struct Pieces {
     const RowMatrix whole = to_finest(spaces);
     inverse_mass = std::make_unique<InverseMass<Host>>(
         level.model.inverse_mass, spaces,
-        made ? axes_of_space(levels.front(), whole, probe.mass())
-             : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
+        made ? frames_of_space(levels.front(), whole, probe.mass())
+             : frames_of_mesh(levels.front(), levels.back(), probe.mass()));
     const std::shared_ptr<const Elasticity<Host>> elasticity =
         make_elasticity<Host>(problem.body.material.model);
     const Vectors<Host> rest("rest", levels[0].vertices.size());

@@ -73,7 +73,7 @@ void InterruptWatch::end_in_order() {
   ended_.notify_all();
 }
 
-void leave_files(const std::vector<MemoryFile>& files, const std::filesystem::path& folder) {
+void leave_files(const std::vector<FileBytes>& files, const std::filesystem::path& folder) {
   write_files(files);
   message(files.empty() ? "interrupted before the first row; nothing new was written"
                         : "interrupted; the rows so far are in " + folder.string());

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <thread>
 #include <vector>
 
@@ -70,6 +70,6 @@ class InterruptWatch {
 
 /// Writes the files of measurements that Ctrl-C has stopped, and prints that they are in the
 /// folder. No files: prints that nothing new was written.
-void leave_files(const std::vector<MemoryFile>& files, const std::filesystem::path& folder);
+void leave_files(const std::vector<FileBytes>& files, const std::filesystem::path& folder);
 
 }  // namespace plica::app

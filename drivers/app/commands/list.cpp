@@ -87,7 +87,7 @@ void list_keys(bool json) {
   std::string text;
   for (const KeyInfo& key : scene_keys()) {
     array.push_back({{"key", key.path},
-                     {"expects", key.expects},
+                     {"expects", key.type_text},
                      {"otherwise", key.otherwise},
                      {"help", key.help}});
     const bool has_default = !key.otherwise.empty() && key.otherwise != "required" &&
@@ -95,7 +95,7 @@ void list_keys(bool json) {
     const std::string otherwise =
         key.otherwise.empty() ? "" : (has_default ? "; default " : "; ") + key.otherwise;
     if (!text.empty() && key.path.find('.') == std::string::npos) text += "\n";
-    text += key.path + "\n" + wrapped(key.expects + otherwise, 96, "    ") +
+    text += key.path + "\n" + wrapped(key.type_text + otherwise, 96, "    ") +
             wrapped(key.help, 96, "    ");
   }
   std::cout << (json ? array.dump(2) + "\n" : text);

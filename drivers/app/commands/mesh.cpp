@@ -14,10 +14,10 @@
 #include <plica/drivers/elastic/element_bound.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/list.hpp>
-#include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 
 namespace plica::app {
 
@@ -166,7 +166,7 @@ void warn(const std::filesystem::path& file, const std::vector<std::string>& war
 void write(const std::filesystem::path& out, const WrittenMesh& written) {
   write_files(written.files);
   warn(out, written.left_out);
-  for (const MemoryFile& file : written.files)
+  for (const FileBytes& file : written.files)
     std::cout << fmt::format("{}: {}\n", file.name, in_bytes(file.bytes.size()));
 }
 

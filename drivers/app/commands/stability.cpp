@@ -24,7 +24,7 @@ std::optional<double> budget_of(const StabilityArguments& more) {
   return budget;
 }
 
-std::vector<MemoryFile> files_of(const std::filesystem::path& folder, const StabilityTexts& texts) {
+std::vector<FileBytes> files_of(const std::filesystem::path& folder, const StabilityTexts& texts) {
   return {{folder / "stability.json", texts.json}, {folder / "stability.csv", texts.csv}};
 }
 
@@ -46,7 +46,7 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
     const auto texts = [&](const StabilityResult& result, const std::string& status) {
       return files_of(folder, stability_texts(scene, machine, result, status));
     };
-    std::vector<MemoryFile> left;  // to be written after Ctrl-C
+    std::vector<FileBytes> left;  // to be written after Ctrl-C
     const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
     const ProgressLine line(arguments.quiet);
     const StabilityResult result =
@@ -82,7 +82,7 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
   const auto texts = [&](const MatrixResult& result, const std::string& status) {
     return files_of(folder, stability_texts(machine, result, status));
   };
-  std::vector<MemoryFile> left;  // to be written after Ctrl-C
+  std::vector<FileBytes> left;  // to be written after Ctrl-C
   const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
   const ProgressLine line(arguments.quiet);
   auto written = start;

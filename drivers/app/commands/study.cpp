@@ -43,7 +43,7 @@ StudyResult run_study(const Scene& scene, const StudyOptions& options, const Stu
   if (!quiet && !before.rows.empty())
     message(fmt::format("going on with {}: {} there", files.folder().string(),
                         counted(static_cast<long>(before.rows.size()), "row")));
-  std::vector<MemoryFile> left;  // to be written after Ctrl-C
+  std::vector<FileBytes> left;  // to be written after Ctrl-C
   std::string doing;
   const auto leaving =
       interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, files.folder()); });

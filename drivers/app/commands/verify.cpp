@@ -13,8 +13,8 @@
 namespace plica::app {
 namespace {
 
-std::vector<MemoryFile> verify_files(const std::filesystem::path& folder, VerifyHead head,
-                                     const std::string& status, const VerifyResult& result) {
+std::vector<FileBytes> verify_files(const std::filesystem::path& folder, VerifyHead head,
+                                    const std::string& status, const VerifyResult& result) {
   head.status = status;
   return {{folder / "verify.json", verify_json(head, result)},
           {folder / "verify.csv", verify_csv(result)},
@@ -33,7 +33,7 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
   make_folder(folder);
   const auto start = Clock::now();
   VerifyHead head{this_machine(), "", more.small, 0};
-  std::vector<MemoryFile> left;  // to be written after Ctrl-C
+  std::vector<FileBytes> left;  // to be written after Ctrl-C
   const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
   const ProgressLine line(arguments.quiet);
   const auto watch = [&](const VerifyProgress& p) {

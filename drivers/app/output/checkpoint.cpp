@@ -85,7 +85,8 @@ std::uint64_t digest_of(const std::string& text) {
 }
 
 // Returns the next number of the text, up to a blank or the end of the line. Moves `at` past it
-std::uint64_t next_number(const std::string& text, std::size_t& at, int base, const Where& where) {
+std::uint64_t next_number(const std::string& text, std::size_t& at, int base,
+                          const SourceLocation& where) {
   std::uint64_t value = 0;
   const auto [rest, error] =
       std::from_chars(text.data() + at, text.data() + text.size(), value, base);
@@ -129,7 +130,7 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
 
 Checkpoint read_checkpoint(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "checkpoint.bin";
-  const Where where{file.string()};
+  const SourceLocation where{file.string()};
   if (!std::filesystem::exists(file))
     throw InputError(
         "there is no checkpoint to resume from; a run writes one only with --checkpoint", where);

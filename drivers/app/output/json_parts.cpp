@@ -27,7 +27,7 @@ std::string material_text(const MaterialInfo& info, const MaterialOptions& mater
     const std::string unit = unit_of(p.kind.dimension);
     const bool takes_prefix = !unit.empty() && unit.find_first_of("/^ ") == std::string::npos;
     text += fmt::format(", {} {}", p.name,
-                        takes_prefix ? in_units(values[i], unit) : p.kind.shown(values[i]));
+                        takes_prefix ? in_units(values[i], unit) : p.kind.to_text(values[i]));
   }
   return text + fmt::format(", density {:g} kg/m^3", material.density);
 }

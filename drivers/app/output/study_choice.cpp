@@ -11,7 +11,7 @@
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/steppers.hpp>
 #include <plica/drivers/run/registry.hpp>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <sstream>
 
 namespace plica::app {

@@ -207,8 +207,8 @@ bool StudyFiles::holds_another() const {
   return holds_other_rows(content_of(folder_ / "study.json"), head_.digest);
 }
 
-std::vector<MemoryFile> StudyFiles::texts(const StudyResult& result, const std::string& status,
-                                          const std::string& stopped) const {
+std::vector<FileBytes> StudyFiles::texts(const StudyResult& result, const std::string& status,
+                                         const std::string& stopped) const {
   return {{folder_ / "study.json", study_json(head_, machine_, result, status, stopped)},
           {folder_ / "study.csv", study_csv(result.rows)}};
 }

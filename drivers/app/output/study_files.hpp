@@ -35,8 +35,8 @@ class StudyFiles {
   /// Returns study.json and study.csv, to be written.
   /// @param status   completed | interrupted | unfinished
   /// @param stopped  key of the case that was interrupted; empty: none
-  std::vector<MemoryFile> texts(const StudyResult& result, const std::string& status,
-                                const std::string& stopped = {}) const;
+  std::vector<FileBytes> texts(const StudyResult& result, const std::string& status,
+                               const std::string& stopped = {}) const;
   /// Writes reference.bin.
   void write_reference(const StudyReference& reference) const;
 

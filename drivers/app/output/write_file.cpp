@@ -53,15 +53,15 @@ void write_file(const std::filesystem::path& file, const std::string& content, D
   if (durable == Durable::yes) sync_file(file.parent_path());
 }
 
-void write_files(const std::vector<MemoryFile>& files) {
+void write_files(const std::vector<FileBytes>& files) {
   try {
-    for (const MemoryFile& file : files) write_draft(file.name, file.bytes);
+    for (const FileBytes& file : files) write_draft(file.name, file.bytes);
   } catch (const FileError&) {
     std::error_code ignored;
-    for (const MemoryFile& file : files) std::filesystem::remove(draft_of(file.name), ignored);
+    for (const FileBytes& file : files) std::filesystem::remove(draft_of(file.name), ignored);
     throw;
   }
-  for (const MemoryFile& file : files) put_in_place(file.name);
+  for (const FileBytes& file : files) put_in_place(file.name);
 }
 
 void sync_file(const std::filesystem::path& file) {

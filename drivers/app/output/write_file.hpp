@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -39,7 +39,7 @@ void write_file(const std::filesystem::path& file, const std::string& content,
 void sync_file(const std::filesystem::path& file);
 
 /// Replaces several files that belong together: all are written before the first one is replaced.
-void write_files(const std::vector<MemoryFile>& files);
+void write_files(const std::vector<FileBytes>& files);
 
 /// Makes the folder and its parents, if they are missing. Throws FolderError, which says what
 /// prevents it and why.

@@ -2,7 +2,7 @@
 #include <charconv>
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/report/read_files.hpp>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/vtu_arrays.hpp>
 #include <sstream>
 
@@ -84,7 +84,7 @@ class FrameReader {
         frame_.tets.push_back({points[i], points[i + 1], points[i + 2], points[i + 3]});
   }
 
-  MemoryFile file_;
+  FileBytes file_;
   VtuArrays arrays_;
   FrameFile frame_;
   std::optional<XmlElement> connectivity_, offsets_;
@@ -102,7 +102,7 @@ const FrameArray* FrameFile::find(const std::string& name) const {
 FrameFile read_frame(const std::filesystem::path& vtu) { return FrameReader(vtu).read(); }
 
 std::vector<FilmEntry> read_collection(const std::filesystem::path& pvd) {
-  const MemoryFile file = load_file(pvd);
+  const FileBytes file = load_file(pvd);
   std::vector<FilmEntry> entries;
   for (const XmlElement& element : vtu_elements(file)) {
     if (element.name != "DataSet") continue;
@@ -110,7 +110,7 @@ std::vector<FilmEntry> read_collection(const std::filesystem::path& pvd) {
     double time = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
     if (error != std::errc() || end != text.data() + text.size())
-      refuse(file.name, element.place, "timestep is " + shown(text) + "; it must be a number");
+      refuse(file.name, element.place, "timestep is " + to_text(text) + "; it must be a number");
     entries.push_back({time, pvd.parent_path() / attribute(element, "file", file)});
   }
   return entries;
@@ -127,18 +127,18 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-double number_of(const std::string& text, const MemoryFile& file, std::int64_t line) {
+double number_of(const std::string& text, const FileBytes& file, std::int64_t line) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    refuse(file.name, {line}, "expected a number, found " + shown(text));
+    refuse(file.name, {line}, "expected a number, found " + to_text(text));
   return value;
 }
 
 }  // namespace
 
 Json read_columns(const std::filesystem::path& csv, std::size_t rows) {
-  const MemoryFile file = load_file(csv);
+  const FileBytes file = load_file(csv);
   std::istringstream stream(file.bytes);
   std::string line;
   std::getline(stream, line);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <optional>
 #include <plica/core/error.hpp>
-#include <plica/drivers/app/report/film.hpp>
 #include <plica/drivers/app/report/page.hpp>
 #include <plica/drivers/app/report/read_files.hpp>
 #include <plica/drivers/app/report/report.hpp>
+#include <plica/drivers/app/report/surface_animation.hpp>
 
 namespace plica::app {
 
@@ -50,8 +50,8 @@ void check_folder(const std::filesystem::path& folder) {
     throw InputError(folder.string() + " is a file; expected the folder of a run or a study");
   if (holds_run(folder) || holds_study(folder)) return;
   std::vector<std::string> inside = reportable_in(folder);
-  constexpr std::size_t shown = 10;
-  if (inside.size() > shown) inside.resize(shown), inside.emplace_back("...");
+  constexpr std::size_t to_text = 10;
+  if (inside.size() > to_text) inside.resize(to_text), inside.emplace_back("...");
   throw InputError(
       folder.string() +
       " holds no run and no study; expected frames.pvd, summary.json or history.csv of `plica "
@@ -142,7 +142,7 @@ class Maker {
     std::size_t there = listed.front().entries.size();
     for (const Listed& film : listed) there = std::min(there, film.entries.size());
     report_.frames_there = there, data_["frames_there"] = there;
-    std::vector<std::optional<Film>> films(listed.size());
+    std::vector<std::optional<SurfaceAnimation>> films(listed.size());
     const std::size_t taken = std::min(there, std::max<std::size_t>(frames, 2));
     for (std::size_t i = 0; i < taken; ++i) {
       const std::size_t frame = taken == 1 ? 0 : i * (there - 1) / (taken - 1);
@@ -159,7 +159,7 @@ class Maker {
 
   // Adds a frame to all animations; adds it to none and returns false if one cannot be read
   bool add_frame(const std::vector<Listed>& listed, std::size_t frame,
-                 std::vector<std::optional<Film>>& films) {
+                 std::vector<std::optional<SurfaceAnimation>>& films) {
     std::vector<FrameFile> files;
     try {
       for (std::size_t i = 0; i < films.size(); ++i) {

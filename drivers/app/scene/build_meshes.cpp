@@ -10,7 +10,7 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/close_slits.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/jitter.hpp>
 #include <plica/meshes/lattice.hpp>
@@ -121,7 +121,7 @@ namespace {
 // Calls make() and adds the location in the scene to an InputError that it throws. Generators and
 // readers of mesh files do not know the scene
 template <class Make>
-auto placed(const Where& where, const Make& make) {
+auto placed(const SourceLocation& where, const Make& make) {
   try {
     return make();
   } catch (const InputError& error) {
@@ -130,7 +130,7 @@ auto placed(const Where& where, const Make& make) {
 }
 
 std::filesystem::path found(const std::string& kind, const std::string& name, const Scene& scene,
-                            const Where& where) {
+                            const SourceLocation& where) {
   const std::filesystem::path file = std::filesystem::path(scene.file).parent_path() / name;
   if (std::error_code error;
       std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
@@ -169,7 +169,7 @@ Reordering better_order(const TetMesh& mesh) {
 
 // Reads a level's mesh, scales it, and merges duplicates and repairs it if asked. Then puts it in
 // an order that is fast to simulate. `numbering` maps this order to that of the file
-TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where,
+TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const SourceLocation& where,
                   Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
   MeshReport report;
@@ -197,7 +197,7 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where,
   return reordered(mesh, order);
 }
 
-TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where& where) {
+TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
@@ -207,7 +207,8 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where
 }
 
 // Reads a closed surface; from a file that holds a mesh, its boundary
-TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const Where& where) {
+TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene,
+                               const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.surface, scene, where);
   auto read = placed(where, [&] { return read_any(file); });
   TriangleSurface surface;
@@ -229,7 +230,7 @@ TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const
 // unless the scene has another embedded surface
 void lay_lattices(Scene& scene, const Tree& tree) {
   Body& body = scene.problem.body;
-  const Where where = place_of(tree, "body.levels.surface");
+  const SourceLocation where = place_of(tree, "body.levels.surface");
   body.surface = closed_surface(*scene.lattices, scene, where);
   for (std::size_t i = 0; i < scene.levels.size(); ++i) {
     const double size = *scene.levels[i].lattice;
@@ -266,7 +267,7 @@ TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest,
                         recipe.sphere->subdivisions);
 }
 
-TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where& where) {
+TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
@@ -358,7 +359,7 @@ void check_names(const Body& body, const Tree& tree) {
 
 TetMesh finer_mesh(const Scene& scene) {
   LevelRecipe recipe = scene.levels.front();
-  const Where where = place_of(scene.source, "body.levels.0");
+  const SourceLocation where = place_of(scene.source, "body.levels.0");
   if (recipe.lattice || !recipe.file.empty())
     throw InputError(fmt::format("--space needs a finest level that can be made finer: a box, a "
                                  "ball, a cylinder, a blob or a tube, "
@@ -381,7 +382,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
   if (scene.lattices) lay_lattices(scene, tree);
   for (std::size_t i = 0; i < scene.levels.size() && !scene.lattices; ++i) {
     const LevelRecipe& recipe = scene.levels[i];
-    const Where where = place_of(tree, fmt::format("body.levels.{}", i));
+    const SourceLocation where = place_of(tree, fmt::format("body.levels.{}", i));
     body.levels.push_back(recipe.file.empty()
                               ? placed(where, [&] { return generated(recipe); })
                               : from_file(recipe, scene, where, scene.numbering[i]));
@@ -392,7 +393,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
                                ": body.levels.0: " + size_text(body.levels.back(), false));
   }
   if (scene.surface) {
-    const Where where = place_of(tree, "body.surface");
+    const SourceLocation where = place_of(tree, "body.surface");
     body.surface =
         scene.surface->file.empty()
             ? placed(where,

@@ -19,16 +19,16 @@ inline constexpr Count thread_count{1, 512};
 
 /// Kind of a value: an interval in simulated time or in macro steps.
 struct Every {
-  std::string expects() const { return "a time (s) > 0, or macro steps such as 10 steps"; }
-  std::string shown(const Interval& value) const { return text_of(value); }
+  std::string type_text() const { return "a time (s) > 0, or macro steps such as 10 steps"; }
+  std::string to_text(const Interval& value) const { return text_of(value); }
 };
 
 /// Kind of a value: a selection of levels.
 struct LevelChoice {
-  std::string expects() const {
+  std::string type_text() const {
     return "true (level 0), false, all, or a list of levels counted from 0, the finest";
   }
-  std::string shown(const VolumeLevels& value) const;
+  std::string to_text(const VolumeLevels& value) const;
 };
 
 /// Kind of a value: an optional struct. true: the struct with its defaults; false: none; a map: the
@@ -40,8 +40,8 @@ struct ListOrMap {};
 
 /// Kind of a value: points with names.
 struct NamedPoints {
-  std::string expects() const { return "a map of names to lists of 3 lengths (m)"; }
-  std::string shown(const std::map<std::string, Point>&) const { return {}; }
+  std::string type_text() const { return "a map of names to lists of 3 lengths (m)"; }
+  std::string to_text(const std::map<std::string, Point>&) const { return {}; }
 };
 
 template <class V>

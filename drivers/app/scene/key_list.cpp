@@ -137,10 +137,10 @@ class Catalogue {
  private:
   template <class Kind, class T>
   static std::string default_of(const Kind& kind, T& member) {
-    if constexpr (requires { kind.shown(member); })
-      return kind.shown(member);
-    else if constexpr (requires { kind.shown(*member); })
-      return member ? kind.shown(*member) : "";
+    if constexpr (requires { kind.to_text(member); })
+      return kind.to_text(member);
+    else if constexpr (requires { kind.to_text(*member); })
+      return member ? kind.to_text(*member) : "";
     else
       return "";
   }
@@ -151,14 +151,14 @@ class Catalogue {
     const std::size_t place = keys_.size();
     keys_.push_back({path_.empty() ? key : path_ + "." + key, {}, otherwise, help});
     std::string description = help;
-    if constexpr (requires { kind.expects(); }) {
+    if constexpr (requires { kind.type_text(); }) {
       const std::string standard = default_of(kind, member);
       properties_[key] = schema_of(kind);
-      keys_[place].expects = kind.expects();
-      description += "\n" + kind.expects() +
+      keys_[place].type_text = kind.type_text();
+      description += "\n" + kind.type_text() +
                      (otherwise != standard || standard.empty() ? "" : "; default " + standard);
     } else {
-      keys_[place].expects = words_of(kind);
+      keys_[place].type_text = words_of(kind);
       properties_[key] = inside(member, kind, std::string(keys_[place].path));
     }
     properties_[key]["description"] = description;

@@ -8,8 +8,8 @@ namespace plica::app {
 
 /// Key of a scene, as `plica list keys` prints it.
 struct KeyInfo {
-  std::string path;     ///< path of the key; a list is "levels[]", a user's own name "<name>"
-  std::string expects;  ///< allowed values
+  std::string path;       ///< path of the key; a list is "levels[]", a user's own name "<name>"
+  std::string type_text;  ///< allowed values
   /// meaning of a missing key: "required", "one of these" or the default
   std::string otherwise;
   std::string help;  ///< meaning of the key

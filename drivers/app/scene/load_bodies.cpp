@@ -21,8 +21,8 @@ class KeyValues {
   template <class T, class Kind>
   void operator()(const char* key, T&& member, const Kind& kind, const char*) {
     const std::string path = path_ + "." + key;
-    if constexpr (requires { kind.shown(member); }) {
-      std::string value = kind.shown(member);
+    if constexpr (requires { kind.to_text(member); }) {
+      std::string value = kind.to_text(member);
       if constexpr (std::is_same_v<Kind, Shares>)
         for (const double share : member.shares) value += fmt::format(" {:g}", share);
       all_.emplace_back(path, value);

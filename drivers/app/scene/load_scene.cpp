@@ -89,7 +89,8 @@ InputError located(const InputError& error, const Tree& source) {
   const std::string message = error.what(),
                     option = message.substr(0, message.find_first_of(" :,"));
   const bool named = source.find(option.substr(0, option.find('.'))) != nullptr;
-  return InputError(message, named ? place_of(source, option) : Where{source.where.file, 0});
+  return InputError(message,
+                    named ? place_of(source, option) : SourceLocation{source.where.file, 0});
 }
 
 namespace {
@@ -282,7 +283,7 @@ Scene load_scene(const Tree& given) {
   with_places(tree, [&] { validate(scene.problem); });
   for (std::string& warning : warnings_of_older_keys(present))
     scene.warnings.push_back(std::move(warning));
-  for (const std::string& doubt : doubts(scene.problem))
+  for (const std::string& doubt : problem_warnings(scene.problem))
     scene.warnings.push_back(scene.file + ": " + doubt);
   check_probes(scene, tree);
   return scene;

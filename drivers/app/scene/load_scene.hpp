@@ -5,7 +5,7 @@
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <string>
 #include <vector>
 

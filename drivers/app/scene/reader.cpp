@@ -17,7 +17,7 @@ void Value::error(const std::string& message) const {
 }
 
 void Value::mismatch(const std::string& expected, const std::string& remark) const {
-  error("expected " + expected + ", got " + tree.shown() + (remark.empty() ? "" : ", " + remark));
+  error("expected " + expected + ", got " + tree.to_text() + (remark.empty() ? "" : ", " + remark));
 }
 
 const std::string& Value::scalar(const std::string& expected) const {
@@ -77,19 +77,19 @@ std::string homes_of(const std::string& key) {
 }  // namespace
 
 void read(const Value& value, const Quantity& kind, double& target) {
-  read_quantity(value, kind, target, kind.expects());
+  read_quantity(value, kind, target, kind.type_text());
 }
 
 void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target) {
   if (value.tree.kind == Tree::Kind::scalar && value.tree.text == "auto") {
     target.reset();
   } else {
-    read_quantity(value, kind.quantity, target.emplace(), kind.expects());
+    read_quantity(value, kind.quantity, target.emplace(), kind.type_text());
   }
 }
 
 void read(const Value& value, const Vector& kind, Point& target) {
-  value.list(kind.expects(), 3);
+  value.list(kind.type_text(), 3);
   for (int axis = 0; axis < 3; ++axis)
     read(value.item(static_cast<std::size_t>(axis)), Quantity{kind.dimension, kind.range},
          target[axis]);
@@ -97,40 +97,40 @@ void read(const Value& value, const Vector& kind, Point& target) {
 
 void read(const Value& value, const Direction& kind, Point& target) {
   read(value, Vector{plain}, target);
-  if (target.isZero(0)) value.error("expected a direction, got " + kind.shown(target));
+  if (target.isZero(0)) value.error("expected a direction, got " + kind.to_text(target));
 }
 
 void read(const Value& value, const Count& kind, int& target) {
-  const std::string& text = value.scalar(kind.expects());
+  const std::string& text = value.scalar(kind.type_text());
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), target);
   if (error != std::errc{} || rest != text.data() + text.size() || target < kind.min ||
       target > kind.max)
-    value.mismatch(kind.expects());
+    value.mismatch(kind.type_text());
 }
 
 void read(const Value& value, const AutoCount& kind, int& target) {
   target = kind.automatic;
-  if (value.scalar(kind.expects()) != "auto") read(value, Count{kind.min, kind.max}, target);
+  if (value.scalar(kind.type_text()) != "auto") read(value, Count{kind.min, kind.max}, target);
 }
 
 void read(const Value& value, const Counts& kind, std::array<int, 3>& target) {
-  value.list(kind.expects(), 3);
+  value.list(kind.type_text(), 3);
   for (std::size_t i = 0; i < 3; ++i) read(value.item(i), Count{kind.min}, target[i]);
 }
 
 void read(const Value& value, const Flag& kind, bool& target) {
-  const std::string& text = value.scalar(kind.expects());
-  if (text != "true" && text != "false") value.mismatch(kind.expects());
+  const std::string& text = value.scalar(kind.type_text());
+  if (text != "true" && text != "false") value.mismatch(kind.type_text());
   target = text == "true";
 }
 
 void read(const Value& value, const Text& kind, std::string& target) {
-  target = value.scalar(kind.expects());
-  if (target.empty()) value.mismatch(kind.expects());
+  target = value.scalar(kind.type_text());
+  if (target.empty()) value.mismatch(kind.type_text());
 }
 
 void read(const Value& value, const Name& kind, std::string& target) {
-  const std::string& text = value.scalar(kind.expects());
+  const std::string& text = value.scalar(kind.type_text());
   const std::vector<std::string> known = names(kind.choices());
   if (std::ranges::find(known, text) == known.end())
     value.error(unknown_name(kind.family, text, known));
@@ -150,19 +150,19 @@ void read(const Value& value, const PresetName& kind, Problem& target) {
 }
 
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target) {
-  read_per_level(value, kind.expects(), target,
+  read_per_level(value, kind.type_text(), target,
                  [&](const Value& one, std::string& name) { read(one, kind.name, name); });
 }
 
 void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target) {
-  read_per_level(value, kind.expects(), target,
+  read_per_level(value, kind.type_text(), target,
                  [](const Value& one, int& count) { read(one, AutoCount{}, count); });
 }
 
 void read(const Value& value, const Shares& kind, const Shares::Target& target) {
   if (value.tree.kind != Tree::Kind::list) return read(value, kind.name, target.rule);
   target.rule = "custom";
-  target.shares.resize(value.list(kind.expects()).size());
+  target.shares.resize(value.list(kind.type_text()).size());
   for (std::size_t i = 0; i < target.shares.size(); ++i)
     read(value.item(i), Shares::share, target.shares[i]);
 }
@@ -173,9 +173,9 @@ void read(const Value& value, const Entry& kind, Entry::Map& target) {
 
 void read(const Value& value, const Every& kind, Interval& target) {
   try {
-    target = parse_interval(value.scalar(kind.expects()));
+    target = parse_interval(value.scalar(kind.type_text()));
   } catch (const std::invalid_argument& problem) {
-    value.mismatch(kind.expects(), problem.what());
+    value.mismatch(kind.type_text(), problem.what());
   }
 }
 
@@ -188,17 +188,17 @@ void read(const Value& value, const LevelChoice& kind, VolumeLevels& target) {
       if (std::ranges::count(target.levels, target.levels.back()) > 1)
         item.error("this level is in the list already");
     }
-    if (target.levels.empty()) value.mismatch(kind.expects());
-  } else if (value.scalar(kind.expects()) == "all") {
+    if (target.levels.empty()) value.mismatch(kind.type_text());
+  } else if (value.scalar(kind.type_text()) == "all") {
     target.all = true;
   } else if (value.tree.text == "true") {
     target.levels = {0};
   } else if (value.tree.text != "false") {
-    value.mismatch(kind.expects());
+    value.mismatch(kind.type_text());
   }
 }
 
-std::string LevelChoice::shown(const VolumeLevels& value) const {
+std::string LevelChoice::to_text(const VolumeLevels& value) const {
   return value.all              ? "all"
          : value.levels.empty() ? "false"
                                 : fmt::format("[{}]", fmt::join(value.levels, ", "));
@@ -206,7 +206,7 @@ std::string LevelChoice::shown(const VolumeLevels& value) const {
 
 void read(const Value& value, const NamedPoints& kind, std::map<std::string, Point>& target) {
   if (value.tree.kind != Tree::Kind::map || value.tree.items.empty())
-    value.mismatch(kind.expects());
+    value.mismatch(kind.type_text());
   for (const Tree& item : value.tree.items) {
     const auto plain = [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-' || c >= 0x80;
@@ -275,7 +275,7 @@ void Reader::finish() const {
     if (choice.chosen.size() == 1 || (choice.chosen.empty() && !choice.required)) continue;
     throw InputError(fmt::format("{}expected {} of {}, got {}", section,
                                  choice.chosen.empty() ? "one" : "only one",
-                                 fmt::join(choice.keys, ", "), map_.tree.shown()),
+                                 fmt::join(choice.keys, ", "), map_.tree.to_text()),
                      map_.tree.key_where);
   }
 }

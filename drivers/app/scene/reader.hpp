@@ -52,8 +52,8 @@ void read(const Value& value, const NamedPoints& kind, std::map<std::string, Poi
 template <class Kind, class T>
 void read(const Value& value, const ListOf<Kind>& kind, std::vector<T>& target) {
   const bool one = value.tree.kind == Tree::Kind::scalar;
-  target.resize(one ? 1 : value.list(kind.expects()).size());
-  if (target.empty()) value.mismatch(kind.expects());
+  target.resize(one ? 1 : value.list(kind.type_text()).size());
+  if (target.empty()) value.mismatch(kind.type_text());
   for (std::size_t i = 0; i < target.size(); ++i)
     read(one ? value : value.item(i), kind.kind, target[i]);
 }
@@ -195,7 +195,7 @@ class OptionReader {
   explicit OptionReader(const std::map<std::string, std::string>& given) : given_(given) {}
   template <class T, class Kind>
   void operator()(const char* key, T& member, const Kind& kind, const char*) const {
-    if constexpr (requires { kind.expects(); })
+    if constexpr (requires { kind.type_text(); })
       if (const auto text = given_.find(key); text != given_.end())
         read_option(option_of(key), text->second, kind, member);
   }
@@ -211,10 +211,11 @@ class OptionList {
   explicit OptionList(const Add& add) : add_(add) {}
   template <class T, class Kind>
   void operator()(const char* key, const T& member, const Kind& kind, const char* help) const {
-    if constexpr (requires { kind.expects(); }) {
-      std::string expects = kind.expects();
-      if constexpr (requires { kind.shown(member); }) expects += "; default " + kind.shown(member);
-      add_(option_of(key), std::string(key), expects, std::string(help));
+    if constexpr (requires { kind.type_text(); }) {
+      std::string type_text = kind.type_text();
+      if constexpr (requires { kind.to_text(member); })
+        type_text += "; default " + kind.to_text(member);
+      add_(option_of(key), std::string(key), type_text, std::string(help));
     }
   }
 

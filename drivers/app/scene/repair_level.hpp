@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <string>
 #include <vector>
 

@@ -14,7 +14,7 @@
 namespace plica::app {
 namespace {
 
-Where place(const std::string& file, const YAML::Mark& mark) {
+SourceLocation place(const std::string& file, const YAML::Mark& mark) {
   return {file, mark.is_null() ? 0 : mark.line + 1};
 }
 
@@ -33,7 +33,7 @@ class Conversion {
 };
 
 void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value) {
-  const Where where = place(file_, key.Mark());
+  const SourceLocation where = place(file_, key.Mark());
   if (!key.IsScalar()) throw InputError("a key must be a word", where);
   const std::string name = valid_utf8(key.Scalar());
   if (const Tree* earlier = map.find(name)) {
@@ -102,7 +102,7 @@ class Documents final : public YAML::EventHandler {
 
 // Returns the value that one part of a path leads to. The part is the number of an item of a list,
 // or the key of a map; a missing key is made
-Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
+Tree& stepped(Tree& tree, const std::string& part, const SourceLocation& where) {
   if (tree.kind == Tree::Kind::list) {
     std::size_t index = 0;
     const auto [rest, error] = std::from_chars(part.data(), part.data() + part.size(), index);
@@ -114,7 +114,7 @@ Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
   }
   if (tree.kind == Tree::Kind::scalar)
     throw InputError(
-        "cannot set '" + part + "' inside " + tree.shown() + ", which is a single value", where);
+        "cannot set '" + part + "' inside " + tree.to_text() + ", which is a single value", where);
   tree.kind = Tree::Kind::map;
   for (Tree& item : tree.items)
     if (item.key == part) return item;
@@ -147,7 +147,7 @@ const Tree* Tree::find(std::string_view name) const {
   return nullptr;
 }
 
-std::string Tree::shown() const {
+std::string Tree::to_text() const {
   constexpr std::size_t most = 80;  // maximum length of a text [bytes]
   if (kind == Kind::scalar && text.size() > most) {
     std::size_t end = most;
@@ -187,7 +187,7 @@ Tree read_tree(const std::filesystem::path& file) {
 }
 
 void override_value(Tree& root, const std::string& assignment, const std::string& label) {
-  const Where where{label, 0};
+  const SourceLocation where{label, 0};
   const std::size_t equals = assignment.find('=');
   if (equals == 0 || equals == std::string::npos)
     throw InputError("expected key.path=value", where);
@@ -209,7 +209,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
   *target = std::move(value);
 }
 
-Where place_of(const Tree& root, std::string_view path) {
+SourceLocation place_of(const Tree& root, std::string_view path) {
   const Tree* tree = &root;
   std::istringstream parts{std::string(path)};
   for (std::string part; std::getline(parts, part, '.');) {
@@ -271,7 +271,7 @@ std::string map_difference(const Tree& before, const Tree& now, const std::strin
     if (item.key == but_for) continue;
     const Tree* other = now.find(item.key);
     if (other == nullptr)
-      return below(path, item.key) + ": " + item.shown() + " is not there any more";
+      return below(path, item.key) + ": " + item.to_text() + " is not there any more";
     if (std::string found = difference(item, *other, below(path, item.key), {}); !found.empty())
       return found;
   }
@@ -285,7 +285,7 @@ std::string difference(const Tree& before, const Tree& now, const std::string& p
                        const std::string& but_for) {
   if (before.kind != now.kind || before.text != now.text ||
       (before.kind == Tree::Kind::list && before.items.size() != now.items.size()))
-    return path + ": " + before.shown() + " became " + now.shown();
+    return path + ": " + before.to_text() + " became " + now.to_text();
   if (before.kind == Tree::Kind::map) return map_difference(before, now, path, but_for);
   for (std::size_t i = 0; i < before.items.size(); ++i)
     if (std::string found =

@@ -18,15 +18,15 @@ struct Tree {
   std::string text;            ///< text of a scalar
   std::vector<Tree> items;     ///< items of a list, or values of a map, in the order of the file
   std::string key;             ///< key of this value in a map; empty: an item of a list
-  Where where;                 ///< location of the value
-  Where key_where;             ///< location of the key; for an item of a list, of the value
+  SourceLocation where;        ///< location of the value
+  SourceLocation key_where;    ///< location of the key; for an item of a list, of the value
   std::string older_key = {};  ///< older name of the key, as the file has it; empty: none
 
   /// Returns the value of a key; null: there is none, or this is no map.
   const Tree* find(std::string_view name) const;
 
   /// Returns a text for messages: "'4 cm'", "a list of 3", "a map (box, cells)", "nothing".
-  std::string shown() const;
+  std::string to_text() const;
 };
 
 /// Reads a YAML file. Throws InputError if it cannot be read, is not YAML, is empty, or holds
@@ -43,7 +43,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
 
 /// Returns the location of a path such as "integration.macro_step". If the file has no such key,
 /// the location is that of the nearest key above it.
-Where place_of(const Tree& root, std::string_view path);
+SourceLocation place_of(const Tree& root, std::string_view path);
 
 /// Returns a scene as JSON, with its values as texts. Locations are lost.
 nlohmann::ordered_json json_of(const Tree& tree);

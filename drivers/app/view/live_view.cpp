@@ -9,11 +9,11 @@
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/app/report/film.hpp>
 #include <plica/drivers/app/report/page.hpp>
+#include <plica/drivers/app/report/surface_animation.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
-#include <plica/drivers/app/view/hands.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
+#include <plica/drivers/app/view/user_forces.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -269,7 +269,7 @@ class LiveView {
   const LiveOptions& options_;
   ExternalForces<B> forces_;
   Skin skin_;
-  Hands<B> hands_;
+  UserForces<B> hands_;
   SavedState first_;
   std::mutex mutex_;  // protects said_
   Controls said_;

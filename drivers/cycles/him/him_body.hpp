@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/state_archive.hpp>
+#include <plica/core/archive.hpp>
 #include <plica/drivers/cycles/him/free_motion.hpp>
 #include <plica/drivers/cycles/him/inertia.hpp>
 
@@ -72,7 +72,7 @@ class HimBody {
   using Exec = typename B::Exec;
 
  public:
-  HimBody(const Level<B>& level, HimParts<B>&& parts, const HimFields<B>& all)
+  HimBody(const LevelData<B>& level, HimParts<B>&& parts, const HimFields<B>& all)
       : parts_(std::move(parts)),
         n_(parts_.rows.count),
         model_(level.model),
@@ -139,7 +139,7 @@ class HimBody {
     } else {
       update_vertices<B>(exec, "plica::him_momenta", n_, kick);
     }
-    parts_.inverse_mass->find_push(exec, parts_.free ? fields_.g : fields_.p, t);
+    parts_.inverse_mass->solve_frame_force(exec, parts_.free ? fields_.g : fields_.p, t);
   }
 
   /// Adds the force that kick() found, p += t F, and sets mean accelerations a = (A p - v) / t.
@@ -163,23 +163,24 @@ class HimBody {
                                  .contact = fields_.contact,
                                  .contact_answer = fields_.contact_answer,
                                  .t = static_cast<Real>(t)};
-    const TurningAxes<B>& axes = parts_.inverse_mass->axes();
-    reduce<B, 2>(
-        exec, "plica::him_kick", n_, finish, blocks_, sums_,
-        EndOfStep<B>{
-            {sums_, watch_, axes.last_round(), first_}, axes.angles(), turned_, axes.vertices()});
+    const CoarseFrames<B>& frames = parts_.inverse_mass->frames();
+    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_,
+                 EndOfStep<B>{{sums_, watch_, frames.last_round(), first_},
+                              frames.angles(),
+                              turned_,
+                              frames.vertices()});
     first_ = false;
   }
 
   /// Forgets what the next step would take from the last, except momenta and contact.
-  void forget(const Exec& exec) {
+  void reset_history(const Exec& exec) {
     first_ = true;
     fill(exec, watch_, 0.0), fill(exec, turned_, 0.0);
-    fill(exec, parts_.inverse_mass->axes().share(), Real(0));
+    fill(exec, parts_.inverse_mass->frames().share(), Real(0));
   }
 
   /// Returns true where steps were unstable: by the spectrum, or F was not found. Waits.
-  /// See WatchSpectrum.
+  /// See WatchStability.
   bool lost_stability(const Exec& exec) const {
     exec.fence("plica::him_watch");
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1) > 0;
@@ -190,10 +191,10 @@ class HimBody {
            (parts_.free ? parts_.free->bytes() : 0);
   }
 
-  void persist(StateArchive<B>& archive) {
+  void persist(Archive<B>& archive) {
     for (double& scale : scales_) archive.number(scale);
     archive.number(first_);
-    archive.field("the axes' share of the momenta", parts_.inverse_mass->axes().share());
+    archive.field("the axes' share of the momenta", parts_.inverse_mass->frames().share());
     archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
     archive.field("how far they turned", turned_);
   }

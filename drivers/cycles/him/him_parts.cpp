@@ -118,19 +118,19 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
   parts.rows = body.rows;
   parts.detail = body.meshes.size() == 1 && !below.made.empty() && below.made.front().slivers;
   std::optional<CoarseModes> modes;
-  AxesShape axes;
+  FrameShape frames;
   if (!spaces.empty()) {
     expect_small(body, spaces.back().up.cols());
     const RowMatrix whole = to_finest(spaces);
     modes.emplace(coarse_stiffness(finest, lame, whole), spaces.back().mass);
     const bool of_mesh =
         below.made.empty() || (body.meshes.size() > 1 && below.made.back().slivers);
-    axes = of_mesh ? axes_of_mesh(finest, body.meshes.back(), body.mass)
-                   : axes_of_space(finest, whole, body.mass);
+    frames = of_mesh ? frames_of_mesh(finest, body.meshes.back(), body.mass)
+                     : frames_of_space(finest, whole, body.mass);
   }
-  const Level<B>& level = setup.hierarchy[0];
+  const LevelData<B>& level = setup.hierarchy[0];
   parts.inverse_mass =
-      std::make_unique<InverseMass<B>>(body.rows.of(level.model.inverse_mass), spaces, axes);
+      std::make_unique<InverseMass<B>>(body.rows.of(level.model.inverse_mass), spaces, frames);
   parts.fitter =
       std::make_unique<InertiaFitter<B>>(setup.hierarchy.exec(), level, body.rows, setup.elasticity,
                                          eigenvalue, *parts.inverse_mass, std::move(modes));

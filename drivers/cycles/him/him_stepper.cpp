@@ -11,7 +11,7 @@ namespace plica {
 namespace {
 
 /// Returns the largest t^2 lambda_max(A K) at which a longer step is taken again.
-/// It is half way from the value at rest, 4 sigma^2, to 3.4, above which WatchSpectrum reports it.
+/// It is half way from the value at rest, 4 sigma^2, to 3.4, above which WatchStability reports it.
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
 constexpr double explicit_safety = 0.9;  // explicit step over the largest stable one
@@ -46,19 +46,19 @@ void HimStepper<B>::take(const Hierarchy<B>& h, std::vector<HimParts<B>>&& parts
 
 template <class B>
 void HimStepper<B>::start(Hierarchy<B>& h) {
-  const Level<B>& level = h[0];
+  const LevelData<B>& level = h[0];
   const auto& exec = h.exec();
   for (const HimBody<B>& body : bodies_) body.turn(exec, level.state.u);
   weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, fields_.p);
   answer(exec, fields_.p, fields_.a);
   combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, fields_.a, 0, fields_.a,
                   level.state.v);
-  forget(exec);
+  reset_history(exec);
 }
 
 template <class B>
 void HimStepper<B>::begin(Hierarchy<B>& h) {
-  const Level<B>& level = h[0];
+  const LevelData<B>& level = h[0];
   const auto& exec = h.exec();
   copy(exec, fields_.a, level.state.u);
   const auto half = static_cast<Real>(0.5 * macro_step_ / (1 << halvings_));
@@ -66,12 +66,12 @@ void HimStepper<B>::begin(Hierarchy<B>& h) {
                   fields_.a, fields_.a);
   for (const HimBody<B>& body : bodies_) body.turn(exec, fields_.a);
   has_momenta_ = false;
-  forget(exec);
+  reset_history(exec);
 }
 
 template <class B>
-void HimStepper<B>::forget(const Exec& exec) {
-  for (HimBody<B>& body : bodies_) body.forget(exec);
+void HimStepper<B>::reset_history(const Exec& exec) {
+  for (HimBody<B>& body : bodies_) body.reset_history(exec);
   // After steps that went wrong these fields may have values that are not finite.
   fill(exec, fields_.force_before, Real(0));
   fill(exec, fields_.answer_before, Real(0));
@@ -89,17 +89,17 @@ void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
 
 template <class B>
 void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
-  SolverLevel<B>& level = h[0];
+  Level<B>& level = h[0];
   // macro steps that are taken again are not counted twice
   if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;
-  level.book("integrate", [&] {
+  level.timed("integrate", [&] {
     prescribe(h.exec(), level, level.state, time);
     level.integrator->advance(level, time, t / explicit_, explicit_);
   });
 }
 
 template <class B>
-void HimStepper<B>::find_momenta(const Exec& exec, const Level<B>& level) {
+void HimStepper<B>::find_momenta(const Exec& exec, const LevelData<B>& level) {
   const auto A = [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, p, v); };
   momentum_of<B>(exec, level.model, A, level.state.v, fields_.p);
   has_momenta_ = true;
@@ -107,13 +107,13 @@ void HimStepper<B>::find_momenta(const Exec& exec, const Level<B>& level) {
 
 template <class B>
 void HimStepper<B>::substep(Hierarchy<B>& h, double time, double t) {
-  SolverLevel<B>& level = h[0];
+  Level<B>& level = h[0];
   const auto& exec = level.exec();
   const State<B>& x = level.state;
   combine_free<B>(exec, "plica::him_drift", level.model.inverse_mass, static_cast<Real>(t / 2), x.v,
                   1, x.u, x.u);
   prescribe(exec, level, level.state, time + t / 2);
-  level.remember(time + t / 2);
+  level.accept_state(time + t / 2);
   level.evaluate_without_contact(level.state, time + t / 2, level.f);
   h.clock.time("turn", 0, [&] {
     for (const HimBody<B>& body : bodies_) body.kick(exec, options_.dissipation.value_or(-1), t);
@@ -127,7 +127,7 @@ void HimStepper<B>::substep(Hierarchy<B>& h, double time, double t) {
 }
 
 template <class B>
-void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
+void HimStepper<B>::touch(Level<B>& level, double time, double t) const {
   const auto& exec = level.exec();
   const ContactRecords<B>& records = level.response().records();
   const Doubles<B>& touching = records.touching;
@@ -160,7 +160,7 @@ bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {
   if (explicit_ == 0)
     return std::ranges::any_of(
         bodies_, [&](const HimBody<B>& body) { return body.lost_stability(h.exec()); });
-  const SolverLevel<B>& level = h[0];
+  const Level<B>& level = h[0];
   const double most = 2 * explicit_ / macro_step_;  // angular frequency [1/s]
   return excited_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u},
                                level.state.v) > most * most;
@@ -168,7 +168,7 @@ bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {
 
 template <class B>
 double HimStepper<B>::explicit_step(const Hierarchy<B>& h) const {
-  const SolverLevel<B>& level = h[0];
+  const Level<B>& level = h[0];
   const double now = largest_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u});
   const double stiffened = now > eigenvalue_ ? std::sqrt(eigenvalue_ / now) : 1;
   return explicit_safety * stiffened * explicit_limit_;
@@ -219,7 +219,7 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
 }
 
 template <class B>
-void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
+void HimStepper<B>::regrow(Hierarchy<B>& h, double t, long steps) {
   if ((halvings_ == 0 && explicit_ == 0) || !regaining_.due(steps)) return;
   const double sigma = options_.sigma, step = explicit_ > 0 ? explicit_step(h) : 0;
   // number of halvings from which on fewer halvings are tried
@@ -259,7 +259,7 @@ std::size_t HimStepper<B>::bytes() const {
 }
 
 template <class B>
-void HimStepper<B>::persist(StateArchive<B>& archive) {
+void HimStepper<B>::persist(Archive<B>& archive) {
   archive.number(halvings_), archive.number(explicit_), archive.number(repairs_),
       archive.number(explicit_steps_);
   archive.number(explicit_until_), archive.number(has_momenta_);

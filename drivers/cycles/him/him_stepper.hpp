@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/drivers/cycles/him/him_body.hpp>
-#include <plica/drivers/cycles/regaining.hpp>
+#include <plica/drivers/cycles/regrow_schedule.hpp>
 #include <plica/drivers/cycles/stepper.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 
@@ -25,7 +25,7 @@ namespace plica {
 ///
 /// lost_stability() is true where a body has stiffened beyond the stable step. repair() cuts the
 /// step and fits the inertia to the present state. Where explicit steps of level 0 alone are
-/// cheaper than steps that fit, macro steps are taken in such explicit sub-steps. lengthen() takes
+/// cheaper than steps that fit, macro steps are taken in such explicit sub-steps. regrow() takes
 /// the longest of the earlier fits that hold in the present state.
 template <class B>
 class HimStepper final : public Stepper<B> {
@@ -50,13 +50,13 @@ class HimStepper final : public Stepper<B> {
 
   bool can_repair() const override { return may_repair_; }
   bool lost_stability(const Hierarchy<B>& h, double kinetic) override;
-  bool sees_late() const override { return explicit_ > 0; }
+  bool detects_late() const override { return explicit_ > 0; }
   /// Returns true for every diagnosis where repairs are allowed.
   /// An impact strains elements by more than a long step can follow. Where stability is lost fast,
   /// energy that nobody put in shows it first.
   bool repairs(const Diagnosis&) const override { return may_repair_; }
   bool repair(Hierarchy<B>& h, double t) override;
-  void lengthen(Hierarchy<B>& h, double t, long steps) override;
+  void regrow(Hierarchy<B>& h, double t, long steps) override;
   int parts() const override { return explicit_ > 0 ? explicit_ : 1 << halvings_; }
 
   /// Returns the momenta p [vertices][3] kg m/s, 0 where the motion is given.
@@ -69,7 +69,7 @@ class HimStepper final : public Stepper<B> {
             {"substeps_regained", regaining_.count()}};
   }
   std::size_t bytes() const override;
-  void persist(StateArchive<B>& archive) override;
+  void persist(Archive<B>& archive) override;
 
  private:
   HimOptions options_;
@@ -86,7 +86,7 @@ class HimStepper final : public Stepper<B> {
   int explicit_ = 0;
   long repairs_ = 0, explicit_steps_ = 0;
   double explicit_until_ = 0;  // end of the latest macro step of explicit sub-steps [s]
-  Regaining regaining_;
+  RegrowSchedule regaining_;
 
   /// Makes the bodies from their parts, and the fields that they share.
   void take(const Hierarchy<B>& h, std::vector<HimParts<B>>&& parts, bool contact);
@@ -106,11 +106,11 @@ class HimStepper final : public Stepper<B> {
     for (const HimBody<B>& body : bodies_) body.answer(exec, p, v, count);
   }
   /// Forgets what the next step would take from the last, except momenta.
-  void forget(const Exec& exec);
+  void reset_history(const Exec& exec);
   /// Finds the momenta of the velocities, p = A^-1 v, with the present frames.
-  void find_momenta(const Exec& exec, const Level<B>& level);
+  void find_momenta(const Exec& exec, const LevelData<B>& level);
   /// Finds contact's forces on the vertices, and the accelerations A f by these.
-  void touch(SolverLevel<B>& level, double time, double t) const;
+  void touch(Level<B>& level, double time, double t) const;
   void substep(Hierarchy<B>& h, double time, double t);
   void step_explicitly(Hierarchy<B>& h, double time, double t);
 };

@@ -50,7 +50,7 @@ std::vector<double> weights_of(const std::vector<double>& alpha) {
 }  // namespace
 
 template <class B>
-InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level,
+InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const LevelData<B>& level,
                                 const RowsOfBody& rows,
                                 std::shared_ptr<const Elasticity<B>> elasticity,
                                 std::optional<double> eigenvalue, InverseMass<B>& inverse_mass,

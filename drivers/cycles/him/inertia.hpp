@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/drivers/cycles/him/inverse_mass.hpp>
 #include <plica/drivers/cycles/him/rows_of_body.hpp>
 #include <plica/drivers/elastic/elasticity.hpp>
@@ -35,7 +35,7 @@ class InertiaFitter {
   /// @param rows        rows of the body's vertices
   /// @param eigenvalue  largest_eigenvalue() of the body's part of the level at rest [1/s^2]; none:
   ///                    computed here
-  InertiaFitter(const typename B::Exec& exec, const Level<B>& level, const RowsOfBody& rows,
+  InertiaFitter(const typename B::Exec& exec, const LevelData<B>& level, const RowsOfBody& rows,
                 std::shared_ptr<const Elasticity<B>> elasticity, std::optional<double> eigenvalue,
                 InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
 
@@ -60,7 +60,7 @@ class InertiaFitter {
 
  private:
   typename B::Exec exec_;
-  const Level<B>& level_;
+  const LevelData<B>& level_;
   RowsOfBody rows_;
   std::shared_ptr<const Elasticity<B>> elasticity_;
   InverseMass<B>& inverse_mass_;

@@ -45,7 +45,7 @@ MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer,
 
 template <class B>
 InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
-                            const AxesShape& axes)
+                            const FrameShape& frames)
     : vertices_(static_cast<int>(inverse_mass.extent(0))),
       inverse_mass_(inverse_mass),
       weights_{1} {
@@ -53,7 +53,7 @@ InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<Ma
   const Kokkos::Profiling::ScopedRegion region("plica: inverse mass");
   weights_.resize(spaces.size() + 1, 0);
   Eigen::VectorXd finer = Eigen::VectorXd::Ones(vertices_);
-  RowMatrix share = axes.restriction.transpose();
+  RowMatrix share = frames.restriction.transpose();
   for (const MassSpace& space : spaces) {
     const Eigen::VectorXd units = units_of(space);
     MassLevel<B>& level = coarser_.emplace_back(mass_level<B>(space, finer, units));
@@ -62,16 +62,16 @@ InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<Ma
     level.share = sparse_rows<B, float>("him.share", RowMatrix(units.asDiagonal() * share));
     finer = units;
   }
-  axes_ = TurningAxes<B>(axes, share);
+  frames_ = CoarseFrames<B>(frames, share);
   filter_.vertices = coarser_.back().vertices;
   filter_.turned =
       zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
-  filter_.rotation = axes_.rotation();
+  filter_.rotation = frames_.rotation();
 }
 
 template <class B>
 auto InverseMass<B>::to_device(const Eigen::MatrixXd& S) -> Answer {
-  constexpr Eigen::Index block = CoarseFilter<B>::block;
+  constexpr Eigen::Index block = CoarseInverseMass<B>::block;
   const Eigen::Index n = S.rows(), blocks = (n + block - 1) / block;
   std::vector<float> values(static_cast<std::size_t>(blocks * n * block), 0.0F);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -83,15 +83,15 @@ auto InverseMass<B>::to_device(const Eigen::MatrixXd& S) -> Answer {
 
 template <class B>
 void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u) const {
-  if (!coarser_.empty()) axes_.turn(exec, u);
+  if (!coarser_.empty()) frames_.turn(exec, u);
 }
 
 template <class B>
-void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) const {
+void InverseMass<B>::solve_frame_force(const Exec& exec, const Vectors<B>& q, double t) const {
   if (coarser_.empty()) return;
   const Vectors<B>& given = coarser_.back().force;
-  go_down_to_axes(exec, q, {}, axes_.start(given, filter_));
-  axes_.find_torques(exec, given, filter_, weights_.back(), t);
+  restrict_to_frames(exec, q, {}, frames_.start(given, filter_));
+  frames_.find_torques(exec, given, filter_, weights_.back(), t);
 }
 
 template <class B>
@@ -104,7 +104,7 @@ void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vecto
   }
   go_up_pushed(
       exec, t,
-      AccelerationOfPushed<B>{{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)}, mean});
+      AccelerationOfPushed<B>{{frames_.push(t, inverse_mass_, p), answer_of_finest(p, a)}, mean});
 }
 
 template <class B>
@@ -112,18 +112,18 @@ void InverseMass<B>::push_and_answer(const Exec& exec, double t, const Vectors<B
                                      const Vectors<B>& q, const Vectors<B>& a) const {
   if (coarser_.empty()) return apply(exec, p, a);
   go_up_pushed(exec, t,
-               AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
+               AnswerOfPushed<B>{frames_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
 }
 
 template <class B>
 template <class Last>
 void InverseMass<B>::go_up_pushed(const Exec& exec, double t, const Last& last) const {
   update_vertices<B>(exec, "plica::him_coarsest", groups_of<B>(filter_.vertices),
-                     ForceAndAnswer<B>{axes_.force_of_torques(), answer_of_coarsest()});
+                     ForceAndAnswer<B>{frames_.force_of_torques(), answer_of_coarsest()});
   for (std::size_t i = 0; i + 1 < coarser_.size(); ++i)
     update_vertices<B>(exec, "plica::axes_share", coarser_[i].vertices,
-                       AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force,
-                                         static_cast<Real>(t)});
+                       AddShareOfFrames<B>{coarser_[i].share, frames_.force(), coarser_[i].force,
+                                           static_cast<Real>(t)});
   go_up(exec, {});
   update_vertices<B>(exec, "plica::him_up", vertices_, last);
 }
@@ -150,12 +150,12 @@ Vectors<B> InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::s
 
 template <class B>
 template <class Turn>
-void InverseMass<B>::go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count,
-                                     const Turn& turn) const {
+void InverseMass<B>::restrict_to_frames(const Exec& exec, const Vectors<B>& f,
+                                        const Doubles<B>& count, const Turn& turn) const {
   const MassLevel<B>& coarsest = coarser_.back();
   const Vectors<B> finer = go_down(exec, f, coarser_.size() - 1, count);
   where_touching<B>(exec, count, "plica::him_down", coarsest.vertices,
-                    DownToAxes<B, Turn>{{coarsest.down, finer, coarsest.force}, turn});
+                    RestrictToFrames<B, Turn>{{coarsest.down, finer, coarsest.force}, turn});
 }
 
 template <class B>
@@ -186,7 +186,7 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
   if (coarser_.empty() || weighed() < coarser_.size()) {
     go_down(exec, f, weighed(), count);
   } else {
-    go_down_to_axes(exec, f, count, TurnForces<B>{filter_, coarser_.back().force});
+    restrict_to_frames(exec, f, count, TurnForces<B>{filter_, coarser_.back().force});
     where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices),
                       answer_of_coarsest());
   }
@@ -196,7 +196,7 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
 
 template <class B>
 std::size_t InverseMass<B>::bytes() const {
-  std::size_t total = bytes_of_views(filter_.turned) + axes_.bytes();
+  std::size_t total = bytes_of_views(filter_.turned) + frames_.bytes();
   for (const MassLevel<B>& level : coarser_)
     total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
              bytes_of_rows(level.share) + bytes_of_views(level.force, level.acceleration);

@@ -2,12 +2,12 @@
 #pragma once
 #include <plica/core/fields.hpp>
 #include <plica/core/inverse_mass.hpp>
-#include <plica/drivers/cycles/him/turning_axes.hpp>
+#include <plica/drivers/cycles/him/coarse_frames.hpp>
 #include <vector>
 
 // Symbols of cmake/docs/him.md: A is apply(), b are weights_. P_i is coarser_[i].up. S is
-// filter_.matrix, R is filter_.rotation. F is found by find_push(); g = axes_.force() is F on the
-// coarsest vertices. Frames are called axes in the code.
+// filter_.matrix, R is filter_.rotation. F is found by solve_frame_force(); g = frames_.force() is
+// F on the coarsest vertices.
 namespace plica {
 
 /// Hierarchical inverse mass A of one body: accelerations a = A f by forces on the finest level.
@@ -19,12 +19,12 @@ class InverseMass {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
   using Count = Doubles<B>;
-  using Answer = decltype(CoarseFilter<B>::matrix);
+  using Answer = decltype(CoarseInverseMass<B>::matrix);
 
   /// @param inverse_mass  inverse masses of the body's vertices on the finest level [1/kg]
-  /// @param axes          frames of the coarsest space, where there are any spaces
+  /// @param frames          frames of the coarsest space, where there are any spaces
   InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
-              const AxesShape& axes);
+              const FrameShape& frames);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// Sets the levels' weights b, finest first; they sum to 1.
@@ -34,16 +34,18 @@ class InverseMass {
   /// Sets the coarse inverse mass S, which to_device() has made.
   void set_answer(const Answer& S) { filter_.matrix = S; }
 
-  /// Turns the coarsest level's frames with the finest mesh's displacements, see TurningAxes.
+  /// Turns the coarsest level's frames with the finest mesh's displacements, see CoarseFrames.
   void turn(const Exec& exec, const Vectors<B>& u) const;
   /// Finds the force F of frames over a time t [s], for momenta q + t F; q is without F.
-  void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
+  void solve_frame_force(const Exec& exec, const Vectors<B>& q, double t) const;
   /// Adds the force of frames, p += t F, and sets a = (A p - v) / t.
-  /// p must be the momenta q of find_push(): their restrictions to the levels are used again.
+  /// p must be the momenta q of solve_frame_force(): their restrictions to the levels are used
+  /// again.
   void push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
                            const Vectors<B>& a) const;
   /// Adds the force of frames to two momenta, p += t F and q += t F, and sets a = A p.
-  /// p must be the momenta q of find_push(): their restrictions to the levels are used again.
+  /// p must be the momenta q of solve_frame_force(): their restrictions to the levels are used
+  /// again.
   void push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q,
                        const Vectors<B>& a) const;
   /// Sets a = A f; vertices whose motion is given get 0.
@@ -51,16 +53,16 @@ class InverseMass {
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a,
              const Doubles<B>& count = {}) const;
 
-  const CoarseFilter<B>& filter() const { return filter_; }
-  const TurningAxes<B>& axes() const { return axes_; }
+  const CoarseInverseMass<B>& filter() const { return filter_; }
+  const CoarseFrames<B>& frames() const { return frames_; }
   std::size_t bytes() const;  ///< device memory, without S
 
  private:
   int vertices_;
   Scalars<B> inverse_mass_;
   std::vector<MassLevel<B>> coarser_;
-  CoarseFilter<B> filter_;
-  TurningAxes<B> axes_;
+  CoarseInverseMass<B> filter_;
+  CoarseFrames<B> frames_;
   std::vector<double> weights_;
 
   /// Returns the number of coarser levels down to the last one whose weight is not 0.
@@ -70,13 +72,14 @@ class InverseMass {
                      const Doubles<B>& count) const;
   /// Restricts f to the coarsest level, and calls `turn` for each vertex there.
   template <class Turn>
-  void go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count,
-                       const Turn& turn) const;
+  void restrict_to_frames(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count,
+                          const Turn& turn) const;
   /// Interpolates accelerations up to the level below the finest.
   /// Starts at the coarsest level, whose accelerations are there, or at the coarsest that has a
   /// weight.
   void go_up(const Exec& exec, const Doubles<B>& count) const;
-  /// Adds the F of find_push() on the levels, goes up, and calls `last` for each finest vertex.
+  /// Adds the F of solve_frame_force() on the levels, goes up, and calls `last` for each finest
+  /// vertex.
   template <class Last>
   void go_up_pushed(const Exec& exec, double t, const Last& last) const;
   AnswerOfCoarsest<B> answer_of_coarsest() const;

@@ -52,7 +52,7 @@ class StretchedBox {
         affine_field(probe_.problem.body.levels[0], 1 / std::sqrt(size) * F0_, Point::Zero());
     auto& level = probe_.at(0);
     copy(level.exec(), level.state.u, device_field<HostBackend>(u));
-    if (final) level.remember(time);
+    if (final) level.accept_state(time);
     f_ = probe_.force(u, std::vector<Point>(u.size(), Point::Zero()), time);
   }
 

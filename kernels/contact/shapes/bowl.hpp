@@ -68,9 +68,9 @@ struct Bowl {
 
   static void check(const std::string& path, const Options& o) {
     if (o.rim > o.radius)
-      throw InputError(path + ".rim is " + keys::Quantity{keys::length}.shown(o.rim) +
+      throw InputError(path + ".rim is " + keys::Quantity{keys::length}.to_text(o.rim) +
                        "; expected at most the radius, " +
-                       keys::Quantity{keys::length}.shown(o.radius));
+                       keys::Quantity{keys::length}.to_text(o.radius));
   }
 
   template <class Real>

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 TEST(KeyList, EveryKeyIsDescribed) {
   std::set<std::string> paths;
   for (const KeyInfo& key : scene_keys()) {
-    EXPECT_FALSE(key.expects.empty()) << key.path;
+    EXPECT_FALSE(key.type_text.empty()) << key.path;
     EXPECT_FALSE(key.help.empty()) << key.path;
     EXPECT_TRUE(paths.insert(key.path).second) << key.path << " twice";
   }
@@ -33,7 +33,7 @@ TEST(KeyList, EveryKeyIsDescribed) {
 TEST(KeyList, SaysUnitRangeAndDefault) {
   for (const KeyInfo& key : scene_keys()) {
     if (key.path != "body.material.young_modulus") continue;
-    EXPECT_EQ(key.expects, "a pressure (Pa) > 0");
+    EXPECT_EQ(key.type_text, "a pressure (Pa) > 0");
     EXPECT_EQ(key.otherwise, "20000 Pa");
   }
 }

@@ -143,7 +143,7 @@ struct Linearised {
     level().linearise(there, 0, weights, 0, level().f);
     if (level().contact()) level().response().linearise({}, level(), there, weights, 0, level().f);
   }
-  SolverLevel<Host>& level() { return probe.at(0); }
+  Level<Host>& level() { return probe.at(0); }
   State<Host> state() const { return {device_field<Host>(u), device_field<Host>(v)}; }
 
   /// (M + h^2 K + h C) direction by differences of the forces.

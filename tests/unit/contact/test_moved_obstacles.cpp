@@ -186,8 +186,9 @@ TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
   p.contact.obstacles = {{SphereOptions{{0, 0, 1}, 0.01}, {}, {}}};
   const auto said = [&](double factor) {
     p.contact.obstacles[0].mass = factor * mass;
-    return std::ranges::count_if(
-        doubts(p), [](const std::string& s) { return s.find("0.mass") != std::string::npos; });
+    return std::ranges::count_if(problem_warnings(p), [](const std::string& s) {
+      return s.find("0.mass") != std::string::npos;
+    });
   };
   EXPECT_EQ(said(0.9), 1);
   EXPECT_EQ(said(1.1), 0);

@@ -28,7 +28,7 @@ struct HimRun {
   std::vector<double> mass;
   double time = 0;
 
-  const Level<B>& level() { return (*built.hierarchy)[0]; }
+  const LevelData<B>& level() { return (*built.hierarchy)[0]; }
   void advance(int steps) {
     for (int n = 0; n < steps; ++n, time += built.macro_step)
       built.stepper->step(*built.hierarchy, time, built.macro_step);
@@ -96,7 +96,7 @@ TYPED_TEST(HimOnEachBackend, KeepsTheMomentaOfAFreeBody) {
   const double size = before.moment.norm();
   EXPECT_LE((after.momentum - before.momentum).norm(),
             round_off<Real>(4000, before.momentum.norm()));
-  // as exactly as the axes' force is found
+  // as exactly as the frames' force is found
   EXPECT_LE((after.moment - before.moment).norm(), 1e-4 * size);
   EXPECT_LE(wavers, 0.05 * size);
   EXPECT_GT((run.field(run.level().state.u)[0]).norm(), 1);  // it did turn
@@ -117,8 +117,8 @@ TEST(Him, KeepsTheEnergyOfASwing) {
   EXPECT_LE(HimRun<Host>(p).energy_error(60, 50), 0.02);
 }
 
-// What the axes do to momenta is what turning them by moving the body does to the kinetic energy.
-TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
+// What the frames do to momenta is what turning them by moving the body does to the kinetic energy.
+TEST(Him, FramesActBackByTheGradientOfTheKineticEnergy) {
   for (const bool alone : {false, true})
     for (const bool held : {false, true}) {
       Problem problem = alone ? him_beam_alone() : him_beam(false);
@@ -151,7 +151,7 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       kinetic(0);
       const double t = 1e-7;  // too short for the force to change what it depends on
       const Vectors<Host> pushed = device_field<Host>(momentum);
-      A.find_push({}, p, t);
+      A.solve_frame_force({}, p, t);
       A.push_and_answer({}, t, pushed, {}, v);
       double work = 0;
       for (std::size_t a = 0; a < n; ++a)
@@ -176,12 +176,12 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       };
       const Vectors<Host> v_at_once("v", n);
       copy(Host::Exec(), pushed, p);
-      A.find_push({}, p, long_time);
+      A.solve_frame_force({}, p, long_time);
       A.push_and_accelerate({}, long_time, pushed, v_before, v_at_once);
       combine<Host>({}, "velocity", long_time, v_at_once, 1, v_before, v_at_once);
       expect_answered(v_at_once);
       copy(Host::Exec(), pushed, p);
-      A.find_push({}, p, long_time);
+      A.solve_frame_force({}, p, long_time);
       A.push_and_answer({}, long_time, pushed, pushed_too, v_at_once);
       EXPECT_TRUE(same_bits(to_host<Host>({}, pushed_too), to_host<Host>({}, pushed)));
       expect_answered(v_at_once);
@@ -210,7 +210,7 @@ TEST(Him, GoesOnFromAStateThatIsPutBack) {
   const double size = largest_difference(left_alone.positions(), p.body.levels[0].vertices);
   EXPECT_GT(size, 0.05);
   EXPECT_LE(largest_difference(left_alone.positions(), put_back.positions()),
-            2e-5 * size);  // the axes' force is found to 1e-3
+            2e-5 * size);  // the frames' force is found to 1e-3
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(MaterialParameters, OfOneNameAreOne) {
       for (const MaterialParameter& key : keys)
         if (std::string(p.name) == key.name) {
           EXPECT_STREQ(p.help, key.help) << info.name << " " << p.name;
-          EXPECT_EQ(p.kind.expects(), key.kind.expects()) << info.name << " " << p.name;
+          EXPECT_EQ(p.kind.type_text(), key.kind.type_text()) << info.name << " " << p.name;
           EXPECT_EQ(p.standard, key.standard) << info.name << " " << p.name;
         }
 }

@@ -59,7 +59,7 @@ struct QuadraticNeoHookean : TwoConstants {
 TEST(NodalElements, HaveTheEnergyAndForceOfOneCell) {
   const TetMesh mesh = box_mesh(unit_box, {1, 1, 1});
   const double beta = 0.4;
-  Level<Host> level;
+  LevelData<Host> level;
   level.model.vertices = 8,
   level.model.rows = build_nodal_rows<Host>(mesh, {{{10 - 2.0 / 3, 1}}, {beta * 1}, {}, {}});
   level.model.shares = level.model.rows.shares;
@@ -189,20 +189,20 @@ TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
     Problem problem = nodal(layered_cube(material, 2), "plain");
     problem.body.damping.stiffness = 2e-3;
     LevelProbe<Host> probe(problem);
-    SolverLevel<Host>& level = probe.at(0);
+    Level<Host>& level = probe.at(0);
     const State<Host> state(device_field<Host>(random_field(probe.vertices(), 0.006, 1)),
                             device_field<Host>(probe.zero()));
     const ImplicitWeights weights{1e-4, 1e-2};
     const Blocks<Host> blocks("test.blocks", probe.vertices());
     Vectors<Host> q("test.q", probe.vertices());
-    for (const bool positive : {false, true}) {
-      SCOPED_TRACE(positive);
-      level.diagonal(state, weights, positive, blocks);
+    for (const bool projected : {false, true}) {
+      SCOPED_TRACE(projected);
+      level.diagonal(state, weights, projected, blocks);
       for (std::size_t a = 0; a < probe.vertices(); ++a)
         for (int k = 0; k < 3; ++k) {
           auto p = probe.zero();
           p[a][k] = 1;
-          level.product(state, device_field<Host>(p), weights, positive, q);
+          level.product(state, device_field<Host>(p), weights, projected, q);
           for (int i = 0; i < 3; ++i) {
             const int number = i == k ? i : i + k + 2;
             EXPECT_NEAR(blocks(a, static_cast<std::size_t>(number)),
@@ -222,7 +222,7 @@ TEST(NodalElements, KeepProjectedTangents) {
     Problem problem = nodal(layered_cube(material, 2), "plain");
     problem.integration.integrator = {"implicit_euler"}, problem.integration.macro_step = 1e-3;
     LevelProbe<Host> probe(problem);
-    SolverLevel<Host>& level = probe.at(0);
+    Level<Host>& level = probe.at(0);
     auto squeezed = random_field(probe.vertices(), 0.004, 1);
     for (std::size_t a = 0; a < probe.vertices(); ++a)
       squeezed[a][2] -= 0.3 * problem.body.levels[0].vertices[a][2];
@@ -255,7 +255,7 @@ TEST(NodalElements, TangentsTakeTheGradientsThatAreKeptOfTheirStateAlone) {
     Problem problem = nodal(layered_cube(material, 2), "plain");
     problem.integration.integrator = {"implicit_euler"}, problem.integration.macro_step = 1e-3;
     LevelProbe<Host> probe(problem);
-    SolverLevel<Host>& level = probe.at(0);
+    Level<Host>& level = probe.at(0);
     ASSERT_GT(level.nodal.gradient.extent(0), 0);
     const auto state = [&](unsigned seed) {
       return State<Host>(device_field<Host>(random_field(probe.vertices(), 0.006, seed)),
@@ -397,7 +397,7 @@ TEST(NodalElements, StressOfAnAffineMotionIsTheSameEverywhere) {
   problem.body.levels[0] = with_regions(problem.body.levels[0], 0.05, "one", "other");
   LevelProbe<Host> probe(problem);
   const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 0.95, 1).asDiagonal();
-  const SolverLevel<Host>& level = probe.at(0);
+  const Level<Host>& level = probe.at(0);
   const Scalars<Host> stress("test.stress", probe.vertices()), J("test.J", probe.vertices());
   level.elasticity().stress(
       level.exec(), level,

@@ -56,7 +56,7 @@ struct StageCase {
     state = State<B>(device_field<B>(u), device_field<B>(probe.zero()));
     level().linearise(state, 0, weights, 0, level().f);
   }
-  SolverLevel<B>& level() { return probe.at(0); }
+  Level<B>& level() { return probe.at(0); }
   const Exec& exec() { return probe.built.hierarchy->exec(); }
 
   std::vector<Point> random_right_side() {
@@ -223,7 +223,7 @@ int iterations(const std::string& preconditioner, int cells, const std::string& 
   p.integration.macro_step = 0.01;
   LevelProbe<Host> probe(p);
   const ImplicitWeights weights{1e-4, 1e-2};
-  SolverLevel<Host>& part = probe.at(0);
+  Level<Host>& part = probe.at(0);
   const auto& exec = probe.built.hierarchy->exec();
   p.integration.implicit.solver = "conjugate_gradients",
   p.integration.implicit.relative_residual = 1e-8;

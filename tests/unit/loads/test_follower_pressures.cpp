@@ -59,8 +59,8 @@ TEST(FollowerPressure, AtRestIsTractionAgainstTheFace) {
   p.body.loads = {{right_face, FollowerPressure{-10}, {}}};
   LevelProbe<Host> follower(p);
   p.body.loads = {{right_face, Traction{{10, 0, 0}}, {}}};
-  LevelProbe<Host> dead(p);
-  const auto pull = follower.force(follower.zero()), same = dead.force(dead.zero());
+  LevelProbe<Host> dead_loads(p);
+  const auto pull = follower.force(follower.zero()), same = dead_loads.force(dead_loads.zero());
   EXPECT_LE(largest_difference(pull, same), 1e-15);
   Eigen::Matrix3d R;
   R << 0, -1, 0, 1, 0, 0, 0, 0, 1;

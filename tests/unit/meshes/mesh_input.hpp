@@ -21,7 +21,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
 }
 
 /// A file of meshes/data/formats.
-inline MemoryFile sample(const std::string& name) {
+inline FileBytes sample(const std::string& name) {
   return load_file(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "formats" / name);
 }
 
@@ -48,16 +48,16 @@ inline void expect_refused(const std::function<void()>& read, const std::string&
   }
 }
 
-inline void expect_refused(const MemoryFile& file, const std::string& place,
+inline void expect_refused(const FileBytes& file, const std::string& place,
                            const std::vector<std::string>& parts) {
   expect_refused([&] { read_mesh(file); }, place, parts);
 }
 
 /// Cut at any byte, a file is refused, unless only the last `optional` bytes are missing.
 template <typename Read>
-void expect_whole(const MemoryFile& file, std::size_t optional, const Read& read) {
+void expect_whole(const FileBytes& file, std::size_t optional, const Read& read) {
   for (std::size_t bytes = 0; bytes < file.bytes.size(); ++bytes) {
-    const MemoryFile part{file.name, file.bytes.substr(0, bytes)};
+    const FileBytes part{file.name, file.bytes.substr(0, bytes)};
     if (bytes + optional >= file.bytes.size())
       EXPECT_NO_THROW(read(part)) << bytes;
     else
@@ -68,12 +68,12 @@ void expect_whole(const MemoryFile& file, std::size_t optional, const Read& read
 /// Any byte may turn into any other: an error or a sound result, but no crash. `check` sees what
 /// was read.
 template <typename Read, typename Check>
-void change_every_byte(const MemoryFile& file, const Read& read, const Check& check,
+void change_every_byte(const FileBytes& file, const Read& read, const Check& check,
                        const std::vector<char>& into = {' ', '\n', '9', '-', '$', '"', 'e', '\0',
                                                         '\xff'}) {
   for (std::size_t at = 0; at < file.bytes.size(); ++at)
     for (const char c : into) {
-      MemoryFile changed = file;
+      FileBytes changed = file;
       changed.bytes[at] = c;
       try {
         check(read(changed));
@@ -102,13 +102,13 @@ inline const std::string two_tets_4 =
     "11\n$EndElements\n";
 
 inline TetMesh read_text(const std::string& content, MeshReport* report = nullptr) {
-  return read_mesh(MemoryFile{"m.msh", content}, report);
+  return read_mesh(FileBytes{"m.msh", content}, report);
 }
 
 /// Reading fails at `line` (0: the message has none), and the message has every one of `parts`.
 inline void expect_refused(const std::string& content, int line,
                            const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.msh", content},
+  expect_refused(FileBytes{"m.msh", content},
                  "m.msh" + (line > 0 ? ":" + std::to_string(line) : ""), parts);
 }
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/list.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
@@ -65,7 +65,7 @@ const std::string kinds =
 
 TEST(Formats, EveryKindOfCellIsCut) {
   MeshReport report;
-  const TetMesh mesh = read_mesh(MemoryFile{"m.mesh", kinds}, &report);
+  const TetMesh mesh = read_mesh(FileBytes{"m.mesh", kinds}, &report);
   EXPECT_EQ(mesh.tets.size(), 6u + 2 + 3);
   EXPECT_EQ(report.cut,
             (std::map<std::string, int>{{"hexahedron", 1}, {"prism", 1}, {"pyramid", 1}}));
@@ -85,12 +85,12 @@ TEST(Formats, EveryKindOfCellIsCut) {
 
 TEST(Formats, AFoldedCellIsRefused) {
   const std::string folded = with(kinds, "1 1 1 0\n0 1 1 0\n", "0 1 1 0\n1 1 1 0\n");
-  expect_refused(MemoryFile{"m.mesh", folded}, "m.mesh:18", {"element 1 is folded"});
+  expect_refused(FileBytes{"m.mesh", folded}, "m.mesh:18", {"element 1 is folded"});
   const std::string collapsed = with(kinds, "2 10 3 6 11 7 9", "2 10 2 6 10 2 9");
-  expect_refused(MemoryFile{"m.mesh", collapsed}, "m.mesh:22", {"prism 1", "too few"});
+  expect_refused(FileBytes{"m.mesh", collapsed}, "m.mesh:22", {"prism 1", "too few"});
   // A cube written as a collapsed one is a prism
   const TetMesh wedge =
-      read_mesh(MemoryFile{"m.mesh", with(kinds, "1 2 3 4 5 6 7 8 4", "1 2 3 3 5 6 7 7 4")});
+      read_mesh(FileBytes{"m.mesh", with(kinds, "1 2 3 4 5 6 7 8 4", "1 2 3 3 5 6 7 7 4")});
   EXPECT_NEAR(mesh_quality(wedge).volume, 0.5 + 1.0 / 3 + 0.5, 1e-12);
 }
 
@@ -163,7 +163,7 @@ TEST(Formats, GroupsKeepTheirNumbersAndTriangles) {
         EXPECT_EQ(again.groups.sets[0].elements, report.groups.sets[0].elements);
         if (is_msh) expect_same(same, mesh);
       }
-  const MemoryFile vtk = write_mesh("m.vtk", mesh, "", false, report.groups).files.front();
+  const FileBytes vtk = write_mesh("m.vtk", mesh, "", false, report.groups).files.front();
   EXPECT_EQ(read_mesh(vtk).region_names, (std::vector<std::string>{"region_2", "region_71"}));
 }
 
@@ -192,7 +192,7 @@ TEST(Formats, VectorsOfCellsAndPointsAreKept) {
       "1\n"
       "CELLS 1 5\n4 1 2 3 4\nCELL_TYPES 1\n10\nPOINT_DATA 5\nVECTORS a double\n9 9 9 4 0 0 0 4 0 0 "
       "0 4 0 0 8\n";
-  const TetMesh one = read_mesh(MemoryFile{"m.vtk", points});
+  const TetMesh one = read_mesh(FileBytes{"m.vtk", points});
   EXPECT_EQ(one.tet_vectors.at("a"), std::vector<Point>{Point(1, 1, 3)})
       << "the mean of its corners";
 }
@@ -212,7 +212,7 @@ TEST(Formats, VectorsOfMshNodesAndElements) {
                                     "4\n0\n3\n4\n0\n7 4 0 0\n8 0 4 0\n9 0 0 4\n10 4 4 4\n"),
                     scalars = data("NodeData", "p", "3\n0\n1\n1\n7 3.5\n");
   const auto read = [&](const std::string& more) {
-    return read_mesh(MemoryFile{"m.msh", mesh + more});
+    return read_mesh(FileBytes{"m.msh", mesh + more});
   };
   const TetMesh both = read(of_cells + scalars + of_nodes);
   EXPECT_EQ(both.tet_vectors.size(), 2u) << "scalars are left out";
@@ -220,7 +220,7 @@ TEST(Formats, VectorsOfMshNodesAndElements) {
   EXPECT_EQ(both.tet_vectors.at("g"), (std::vector<Point>{{2, 2, 2}, {1, 2, 2}}))
       << "means; node 11 has none";
   const auto refused = [&](const std::string& more, const char* line, const char* part) {
-    expect_refused(MemoryFile{"m.msh", mesh + data("NodeData", "f", more)}, line, {part});
+    expect_refused(FileBytes{"m.msh", mesh + data("NodeData", "f", more)}, line, {part});
   };
   refused("1\n0\n", "m.msh:21", "$NodeData has 1 integer tags; expected 3 or more");
   refused("3\n0\n3\n9999\n7 1 0 0\n", "m.msh:25", "the number of vectors is 9999");
@@ -247,11 +247,11 @@ TEST(Formats, LooseOnesAreReadToo) {
   const std::string off =
       "COFF\n# c\n4 2 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n1 1 0 1 0 0 1\n0 1 0 1 0 0 1\n4 0\n1 "
       "2\n3\n\n3 0 2 1 9 9\n";
-  EXPECT_EQ(read_surface(MemoryFile{"m.off", off}).triangles,
+  EXPECT_EQ(read_surface(FileBytes{"m.off", off}).triangles,
             (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 2}, {0, 2, 3}}));
-  const MemoryFile stl = sample("blocks.stl");
+  const FileBytes stl = sample("blocks.stl");
   EXPECT_EQ(
-      read_surface(MemoryFile{"m.stl", with(stl.bytes, "endsolid", "end solid")}).triangles.size(),
+      read_surface(FileBytes{"m.stl", with(stl.bytes, "endsolid", "end solid")}).triangles.size(),
       20u);
 }
 
@@ -269,7 +269,7 @@ TEST(Formats, StripsAndPolygons) {
       "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 1 0 0 0 1 0 1 "
       "1 0 0 2 0\n"
       "LINES 1 3\n2 0 1\nTRIANGLE_STRIPS 1 6\n5 0 1 2 3 4\nPOLYGONS 1 5\n4 0 2 3 1\n";
-  const TriangleSurface surface = read_surface(MemoryFile{"m.vtk", strip});
+  const TriangleSurface surface = read_surface(FileBytes{"m.vtk", strip});
   EXPECT_EQ(surface.triangles, (std::vector<std::array<int, 3>>{
                                    {0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {0, 2, 3}, {0, 3, 1}}));
 }
@@ -288,7 +288,7 @@ std::string fan(int faces, const std::string& more) {
 TEST(Formats, AFewBadFacesAreLeftOut) {
   SurfaceReport report;
   const auto left_out = [&](const std::string& text) {
-    read_surface(MemoryFile{"m.obj", text}, &report);
+    read_surface(FileBytes{"m.obj", text}, &report);
     return report.left_out;
   };
   EXPECT_EQ(left_out(fan(300, "f 1 2\nf 1 2 9999\nf 1 2 x\n")), 3);
@@ -299,21 +299,21 @@ TEST(Formats, AFewBadFacesAreLeftOut) {
 }
 
 TEST(Formats, CompressedArraysAreChecked) {
-  const MemoryFile zlib = sample("blocks_zlib.vtu");
+  const FileBytes zlib = sample("blocks_zlib.vtu");
   const auto changed = [&](const char* from, const char* to) {
-    return MemoryFile{zlib.name, with(zlib.bytes, from, to)};
+    return FileBytes{zlib.name, with(zlib.bytes, from, to)};
   };
   EXPECT_THROW(read_mesh(changed("vtkZLibDataCompressor", "vtkLZMADataCompressor")), InputError);
   EXPECT_THROW(read_mesh(changed("vtkZLibDataCompressor", "vtkLZ4DataCompressor")), InputError);
   const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
   for (const char* name : {"blocks_zlib.vtu", "blocks_lz4.vtu", "blocks_lz4_inline.vtu"})
-    change_every_byte(sample(name), [](const MemoryFile& file) { return read_mesh(file); }, check,
+    change_every_byte(sample(name), [](const FileBytes& file) { return read_mesh(file); }, check,
                       {'A', '\xff'});
 }
 
 TEST(Formats, AnyByteChangedIsRefusedOrSound) {
-  const auto of_mesh = [](const MemoryFile& file) { return read_mesh(file); };
-  const auto of_surface = [](const MemoryFile& file) { return read_surface(file); };
+  const auto of_mesh = [](const FileBytes& file) { return read_mesh(file); };
+  const auto of_surface = [](const FileBytes& file) { return read_surface(file); };
   change_every_byte({"m.mesh", kinds}, of_mesh,
                     [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); });
   for (const char* name :
@@ -349,7 +349,7 @@ const Refused refused[] = {
 TEST(Formats, MalformedFilesAreRefused) {
   for (const Refused& one : refused) {
     SCOPED_TRACE(one.to);
-    MemoryFile file = sample(one.sample);
+    FileBytes file = sample(one.sample);
     file.bytes = with(file.bytes, one.from, one.to);
     try {
       file.name.ends_with(".mesh") ? void(read_mesh(file)) : void(read_surface(file));

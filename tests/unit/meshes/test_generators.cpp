@@ -310,16 +310,15 @@ TEST(FuzzCorpus, SeedsAreRead) {
     for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name)) {
       const std::string seed = entry.path().filename().string();
       if (seed.starts_with("polydata") || seed == "surface") continue;  // holds no tetrahedra
-      EXPECT_NO_THROW(
-          read_mesh(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
+      EXPECT_NO_THROW(read_mesh(FileBytes{std::string("m.") + name, load_file(entry.path()).bytes}))
           << entry.path();
     }
   for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / "medit"))
-    EXPECT_NO_THROW(read_mesh(MemoryFile{"m.mesh", load_file(entry.path()).bytes})) << entry.path();
+    EXPECT_NO_THROW(read_mesh(FileBytes{"m.mesh", load_file(entry.path()).bytes})) << entry.path();
   for (const char* name : {"obj", "ply", "off", "stl"})
     for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name))
       EXPECT_NO_THROW(
-          read_surface(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
+          read_surface(FileBytes{std::string("m.") + name, load_file(entry.path()).bytes}))
           << entry.path();
 }
 

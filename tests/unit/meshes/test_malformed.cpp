@@ -2,7 +2,7 @@
 #include <cstring>
 #include <limits>
 #include <plica/meshes/files/list.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
@@ -143,11 +143,11 @@ TEST(MalformedMsh4, EntitiesComeFirst) {
 
 // Bytes are named where there are no lines
 TEST(MalformedMsh4, Binary) {
-  const MemoryFile file = sample("blocks_41_binary.msh");
+  const FileBytes file = sample("blocks_41_binary.msh");
   const std::size_t flag = file.bytes.find("\n4.1 1 8\n") + 9,
                     nodes = file.bytes.find("$Nodes\n") + 7;
   const auto changed = [&](std::size_t at, auto value) {
-    MemoryFile copy = file;
+    FileBytes copy = file;
     std::memcpy(copy.bytes.data() + at, &value, sizeof(value));
     return copy;
   };
@@ -162,7 +162,7 @@ TEST(MalformedMsh4, Binary) {
   expect_refused(changed(first + 16, std::numeric_limits<double>::quiet_NaN()), place(first + 16),
                  {"coordinate y is nan"});
   // in the last element: 20 bytes for its last nodes and the end of the section
-  MemoryFile cut = file;
+  FileBytes cut = file;
   cut.bytes.resize(file.bytes.find("\n$EndElements") - 4);
   expect_refused(cut, place(cut.bytes.size() - 4),
                  {"expected a node of an element, but the data end"});
@@ -182,10 +182,10 @@ class Malformed : public testing::TestWithParam<MeshWriter> {
   }();
 
   TetMesh read(MeshReport& report) const {
-    const std::vector<MemoryFile> files =
+    const std::vector<FileBytes> files =
         GetParam().write(std::string("m.") + GetParam().extension, mesh, {}).files;
     if (files.size() == 1) return read_mesh(files[0], &report);
-    return sound_mesh(parse_tetgen(files[1], files[0], report), report);
+    return validated_mesh(parse_tetgen(files[1], files[0], report), report);
   }
   TetMesh read() const {
     MeshReport report;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/reordering.hpp>

@@ -106,18 +106,18 @@ TEST(ReadMsh, SkipsSectionsForOtherUses) {
 TEST(ReadMsh, CutAtAnyByteIsRefused) {
   for (const std::string& text : {two_tets, two_tets_4})
     expect_whole({"m.msh", text}, 1,
-                 [](const MemoryFile& file) { expect_same(read_mesh(file), read_text(two_tets)); });
+                 [](const FileBytes& file) { expect_same(read_mesh(file), read_text(two_tets)); });
 }
 
 TEST(ReadMsh, AnyByteChangedIsRefusedOrSound) {
   for (const std::string& text : {two_tets, two_tets_4})
     change_every_byte(
-        {"m.msh", text}, [](const MemoryFile& file) { return read_mesh(file); },
+        {"m.msh", text}, [](const FileBytes& file) { return read_mesh(file); },
         [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); });
 }
 
 TEST(ReadMesh, ChoosesTheFormatByExtension) {
-  expect_same(read_mesh(MemoryFile{"liver.MSH", two_tets}), read_text(two_tets));
+  expect_same(read_mesh(FileBytes{"liver.MSH", two_tets}), read_text(two_tets));
   expect_refused([] { read_mesh("liver.mshh"); }, "liver.mshh",
                  {"unknown mesh file extension 'mshh'; did you mean 'msh'? (choices: msh, "});
   EXPECT_THROW(read_mesh("no_extension"), InputError);
@@ -130,7 +130,7 @@ TEST(ReadMesh, MissingFilesAndFoldersAreNamed) {
 }
 
 // What Gmsh wrote, in every variant of its format
-TetMesh read(const MemoryFile& file) { return read_mesh(file); }
+TetMesh read(const FileBytes& file) { return read_mesh(file); }
 
 struct Variant {
   const char* file;
@@ -263,7 +263,7 @@ class Folder {
 
 // Onto the disk; what was left out
 std::vector<std::string> store(const WrittenMesh& written) {
-  for (const MemoryFile& file : written.files)
+  for (const FileBytes& file : written.files)
     std::ofstream(file.name, std::ios::binary) << file.bytes;
   return written.left_out;
 }

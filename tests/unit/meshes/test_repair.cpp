@@ -125,7 +125,7 @@ TEST(RepairMesh, FlawsThatReadersRefuseAreRepaired) {
       "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 "
       "0\n0.5 0.5 0 0\n"
       "Tetrahedra 5\n1 2 3 4 1\n2 3 4 5 1\n2 3 4 5 1\n1 2 3 6 1\n1 1 2 3 1\nEnd\n";
-  const MemoryFile file{"m.mesh", text};
+  const FileBytes file{"m.mesh", text};
   EXPECT_THROW(read_mesh(file), InputError);
   MeshReport report;
   const MeshRepair repair = repair_mesh(read_mesh(file, &report, Flaws::kept));

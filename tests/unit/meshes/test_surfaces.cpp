@@ -3,7 +3,7 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
@@ -25,16 +25,16 @@ const std::string facet =
     " endfacet\n";
 const std::string stl = facet + "endsolid one\n";
 
-TriangleSurface read(const MemoryFile& file) { return read_surface(file); }
+TriangleSurface read(const FileBytes& file) { return read_surface(file); }
 
-void expect_surface_refused(const MemoryFile& file, const std::string& place,
+void expect_surface_refused(const FileBytes& file, const std::string& place,
                             const std::vector<std::string>& parts) {
   expect_refused([&] { read(file); }, place, parts);
 }
 
 TEST(Surfaces, ObjWithEveryFormOfCorner) {
   SurfaceReport report;
-  const TriangleSurface surface = read_surface(MemoryFile{"m.obj", obj}, &report);
+  const TriangleSurface surface = read_surface(FileBytes{"m.obj", obj}, &report);
   EXPECT_EQ(surface.vertices[3], Point(0, 0, 1));
   EXPECT_EQ(surface.triangles,
             (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
@@ -56,7 +56,7 @@ TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
   std::string inside_out = with(with(obj, "f 1 3 2", "f 1 2 3"), "f 1/1 2/2 4/3", "f 2 1 4");
   inside_out = with(with(inside_out, "f 2//1 3//1", "f 3 2"), "f -4 -1 -2", "f 1 3 4");
   SurfaceReport report;
-  const TriangleSurface surface = read_surface(MemoryFile{"m.obj", inside_out}, &report);
+  const TriangleSurface surface = read_surface(FileBytes{"m.obj", inside_out}, &report);
   EXPECT_TRUE(report.turned);
   EXPECT_NEAR(enclosed_volume(surface), 1.0 / 6.0, 1e-15);
 }
@@ -64,7 +64,7 @@ TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
 TEST(Surfaces, CountsWhatIsNotClosed) {
   SurfaceReport report;
   const auto read_with = [&](const std::string& from, const std::string& to) {
-    read_surface(MemoryFile{"m.obj", with(with(obj, "f -4 -1 -2", "f 1 4 3"), from, to)}, &report);
+    read_surface(FileBytes{"m.obj", with(with(obj, "f -4 -1 -2", "f 1 4 3"), from, to)}, &report);
     return report;
   };
   EXPECT_EQ(read_with("f 1 3 2\n", "").open_edges, 3);
@@ -152,8 +152,8 @@ TEST(MalformedSurfaces, Stl) {
   refused("endloop", "vertex 2 2 2\nendloop", 7, {"endloop after three vertices"});
   refused("outer loop", "inner loop", 3, {"outer loop"});
   refused("endsolid one", "facets", 9, {"facet or endsolid"});
-  const MemoryFile file = sample("blocks_binary.stl");
-  MemoryFile changed = file;
+  const FileBytes file = sample("blocks_binary.stl");
+  FileBytes changed = file;
   changed.bytes[82] = 1;
   expect_surface_refused(changed, file.name + ": byte 80",
                          {"triangles is 65556", "3277884 bytes", "has 1084"});
@@ -170,7 +170,7 @@ const std::string tets = "2 4 1\n0 0 1 2 3 5\n1 1 2 3 4 2\n";
 
 TetMesh read_tetgen(const std::string& ele, const std::string& node, MeshReport* report = nullptr) {
   MeshReport found;
-  const TetMesh mesh = sound_mesh(parse_tetgen({"m.ele", ele}, {"m.node", node}, found), found);
+  const TetMesh mesh = validated_mesh(parse_tetgen({"m.ele", ele}, {"m.node", node}, found), found);
   if (report) *report = found;
   return mesh;
 }
@@ -212,7 +212,7 @@ TEST(TetGen, ReadsEitherFileOfThePairFromZeroAndFromOne) {
     EXPECT_EQ(mesh.vertex_sets.at("marker_1"), (std::vector<int>{0, 1, 2, 3}));
   }
   EXPECT_THROW(read_mesh("no/such.ele"), InputError);
-  EXPECT_THROW(read_mesh(MemoryFile{"no/such.ele", tets}), InputError);
+  EXPECT_THROW(read_mesh(FileBytes{"no/such.ele", tets}), InputError);
 }
 
 // But for the digits of the last number the lengths tell
@@ -226,10 +226,9 @@ TEST(TetGen, CutAtAnyByteIsRefused) {
 TEST(TetGen, AnyByteChangedIsRefusedOrSound) {
   const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
   change_every_byte(
-      {"m.ele", tets}, [](const MemoryFile& file) { return read_tetgen(file.bytes, nodes); },
-      check);
+      {"m.ele", tets}, [](const FileBytes& file) { return read_tetgen(file.bytes, nodes); }, check);
   change_every_byte(
-      {"m.node", nodes}, [](const MemoryFile& file) { return read_tetgen(tets, file.bytes); },
+      {"m.node", nodes}, [](const FileBytes& file) { return read_tetgen(tets, file.bytes); },
       check);
 }
 

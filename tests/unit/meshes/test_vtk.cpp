@@ -28,18 +28,18 @@ const std::string two_tets_5 =
     "CELL_DATA 3\nFIELD FieldData 2\nregion 1 3 int\n0 5 2\nMETADATA\nINFORMATION 0\n\nother 2 3 "
     "double\n1 2 3 4 5 6\n";
 
-TetMesh read(const MemoryFile& file) { return read_mesh(file); }
-TetMesh read_text(const std::string& text) { return read_mesh(MemoryFile{"m.vtk", text}); }
+TetMesh read(const FileBytes& file) { return read_mesh(file); }
+TetMesh read_text(const std::string& text) { return read_mesh(FileBytes{"m.vtk", text}); }
 
 void expect_refused_with(const std::string& from, const std::string& to, int line,
                          const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line),
+  expect_refused(FileBytes{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line),
                  parts);
 }
 
 TEST(Vtk, TakesTetrahedraAndRegions) {
   MeshReport report;
-  const TetMesh mesh = read_mesh(MemoryFile{"m.vtk", two_tets}, &report);
+  const TetMesh mesh = read_mesh(FileBytes{"m.vtk", two_tets}, &report);
   ASSERT_EQ(mesh.vertices.size(), 5u);
   EXPECT_EQ(mesh.vertices[3], Point(0, 0, 1));
   EXPECT_EQ(mesh.tets, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
@@ -81,7 +81,7 @@ TEST(Vtk, CutAtAnyByteIsRefused) {
   const TetMesh whole = read(sample("blocks_51.vtk"));
   for (const char* name : {"blocks_51.vtk", "blocks_51_binary.vtk", "blocks_42_binary.vtk"}) {
     SCOPED_TRACE(name);
-    const MemoryFile file = sample(name);
+    const FileBytes file = sample(name);
     for (std::size_t bytes = 0; bytes < file.bytes.size(); ++bytes) {
       try {
         const TetMesh mesh = read({file.name, file.bytes.substr(0, bytes)});
@@ -104,7 +104,7 @@ TEST(Vtk, AnyByteChangedIsRefusedOrSound) {
 }
 
 TEST(MalformedVtk, Headings) {
-  expect_refused(MemoryFile{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
+  expect_refused(FileBytes{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
   expect_refused_with("3.0", "6.0", 1, {"version is '6.0'", "1.0 to 5.1"});
   expect_refused_with("ASCII", "TEXT", 3, {"'TEXT'", "ASCII or BINARY"});
   expect_refused_with("UNSTRUCTURED_GRID", "RECTILINEAR_GRID", 4,
@@ -112,7 +112,7 @@ TEST(MalformedVtk, Headings) {
   expect_refused_with("UNSTRUCTURED_GRID", "POLYDATA", 10, {"POLYGONS", "'CELLS 3 14'"});
   expect_refused_with("DATASET UNSTRUCTURED_GRID\n", "", 4, {"DATASET UNSTRUCTURED_GRID"});
   expect_refused_with("CELL_TYPES 3", "CELL_KINDS 3", 14, {"keyword", "'CELL_KINDS 3'"});
-  expect_refused(MemoryFile{"m.vtk", two_tets.substr(0, two_tets.find("CELL_TYPES"))}, "m.vtk:13",
+  expect_refused(FileBytes{"m.vtk", two_tets.substr(0, two_tets.find("CELL_TYPES"))}, "m.vtk:13",
                  {"CELL_TYPES", "ends"});
 }
 
@@ -145,7 +145,7 @@ TEST(MalformedVtk, Cells) {
                       {"tetrahedron 2 repeats tetrahedron 1 on line 12"});
   const auto refuse_5 = [](const std::string& from, const std::string& to, int line,
                            const std::vector<std::string>& parts) {
-    expect_refused(MemoryFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line),
+    expect_refused(FileBytes{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line),
                    parts);
   };
   refuse_5("0 3 7 11\n", "1 3 7 11\n", 19, {"first offset is 1"});
@@ -169,10 +169,10 @@ TEST(MalformedVtk, Arrays) {
 }
 
 TEST(MalformedVtk, Binary) {
-  const MemoryFile file = sample("blocks_51_binary.vtk");
+  const FileBytes file = sample("blocks_51_binary.vtk");
   const std::size_t points = file.bytes.find("double\n") + 7;
   const auto place = [&](std::size_t at) { return file.name + ": byte " + std::to_string(at); };
-  MemoryFile changed = file;
+  FileBytes changed = file;
   changed.bytes.replace(points + 8, 2, "\x7f\xf8");
   expect_refused(changed, place(points + 8), {"coordinate y is nan"});
   changed = file;
@@ -196,11 +196,11 @@ const std::string xml_tets =
     "2</DataArray>\n</CellData>\n"
     "<!-- a > comment --></Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 
-TetMesh read_xml(const std::string& text) { return read_mesh(MemoryFile{"m.vtu", text}); }
+TetMesh read_xml(const std::string& text) { return read_mesh(FileBytes{"m.vtu", text}); }
 
 void expect_xml_refused(const std::string& from, const std::string& to, int line,
                         const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.vtu", with(xml_tets, from, to)}, "m.vtu:" + std::to_string(line),
+  expect_refused(FileBytes{"m.vtu", with(xml_tets, from, to)}, "m.vtu:" + std::to_string(line),
                  parts);
 }
 
@@ -255,8 +255,8 @@ TEST(Vtu, AnyByteChangedIsRefusedOrSound) {
 }
 
 TEST(MalformedVtu, Files) {
-  expect_refused(MemoryFile{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
-  expect_refused(MemoryFile{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
+  expect_refused(FileBytes{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
+  expect_refused(FileBytes{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
   expect_xml_refused("\"UnstructuredGrid\"", "\"ImageData\"", 2,
                      {"'ImageData'", "UnstructuredGrid"});
   expect_xml_refused("\"LittleEndian\"", "\"Middle\"", 2, {"byte_order is 'Middle'"});
@@ -275,10 +275,10 @@ TEST(MalformedVtu, Xml) {
   expect_xml_refused("'2'", "'&two;'", 4, {"NumberOfCells is '&two;'"});
   expect_xml_refused("<!-- a > comment -->", "<![CDATA[x]]>", 21, {"CDATA", "not supported"});
   expect_xml_refused("-->", "", 21, {"malformed", "comment", "'<!-- a > comment"});
-  expect_refused(MemoryFile{"m.vtu", xml_tets + "<VTKFile/>"}, "m.vtu:24", {"second outermost"});
+  expect_refused(FileBytes{"m.vtu", xml_tets + "<VTKFile/>"}, "m.vtu:24", {"second outermost"});
   std::string deep;
   for (int i = 0; i < 1000; ++i) deep += "<a>";
-  expect_refused(MemoryFile{"m.vtu", xml_tets.substr(0, xml_tets.find("<Piece")) + deep}, "m.vtu:4",
+  expect_refused(FileBytes{"m.vtu", xml_tets.substr(0, xml_tets.find("<Piece")) + deep}, "m.vtu:4",
                  {"malformed", "tags mismatch"});
 }
 
@@ -304,9 +304,9 @@ TEST(MalformedVtu, Arrays) {
 }
 
 TEST(MalformedVtu, Appended) {
-  const MemoryFile file = sample("blocks_raw.vtu");
+  const FileBytes file = sample("blocks_raw.vtu");
   const auto changed = [&](const std::string& from, const std::string& to) {
-    return MemoryFile{file.name, with(file.bytes, from, to)};
+    return FileBytes{file.name, with(file.bytes, from, to)};
   };
   const std::size_t begin = file.bytes.find("\n   _") + 5;
   const std::string at = file.name + ": byte ";
@@ -314,7 +314,7 @@ TEST(MalformedVtu, Appended) {
   EXPECT_THROW(read(changed("\"raw\"", "\"rot\"")), InputError);
   expect_refused(changed("</AppendedData>", "</AppendedDate>"),
                  at + std::to_string(file.bytes.size()), {"expected </AppendedData>"});
-  MemoryFile huge = file;
+  FileBytes huge = file;
   const std::size_t points =
       std::stoul(file.bytes.substr(file.bytes.find("offset=", file.bytes.find("<Points>")) + 8));
   huge.bytes[begin + points + 6] = '\x7f';

@@ -338,7 +338,7 @@ TEST(FuzzRun, SeedsAreStepped) {
       SCOPED_TRACE(entry.path().string());
       const std::string bytes = load_file(entry.path()).bytes;
       EXPECT_NO_THROW(
-          fuzz::step(read_mesh(MemoryFile{bytes.starts_with('#') ? "m.vtk" : "m.msh", bytes})));
+          fuzz::step(read_mesh(FileBytes{bytes.starts_with('#') ? "m.vtk" : "m.msh", bytes})));
     }
 }
 

@@ -112,9 +112,9 @@ TEST(Validate, NamesEveryBadOption) {
 }
 
 TEST(Validate, ChecksTheMeshesOfACaller) {
-  const auto after = [](const std::function<void(TetMesh&)>& spoil) {
+  const auto after = [](const std::function<void(TetMesh&)>& poison) {
     Problem p = small_cube();
-    spoil(p.body.levels[0]);
+    poison(p.body.levels[0]);
     return refusal_of(p);
   };
   EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = 100000; }),
@@ -418,7 +418,7 @@ TEST(Validate, DoubtsElementsThatAreTooStiff) {
                        const std::array<int, 3>& cells) {
     Problem p = body_of({box_mesh({{0, 0, 0}, {1, 0.05, 0.05}}, cells)});
     p.body.element = {element}, p.body.material.poisson_ratio = poisson;
-    const auto all = doubts(p);
+    const auto all = problem_warnings(p);
     return all.empty() ? std::string() : all.front();
   };
   EXPECT_EQ(said("linear", 0.45, {80, 4, 4}),

@@ -153,7 +153,7 @@ TEST(CriticalStep, EigenvaluesOfAnIndefiniteStiffness) {
     const auto eigenvalues =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues();
     ASSERT_LT(eigenvalues.minCoeff(), -1e-3 * eigenvalues.maxCoeff()) << size;
-    const Level<Host>& level = probe.at(0);
+    const LevelData<Host>& level = probe.at(0);
     const double found =
         largest_eigenvalue<Host>({}, {level, probe.at(0).elasticity(), device_field<Host>(u)});
     EXPECT_GE(found, 0.99 * eigenvalues.maxCoeff()) << size;

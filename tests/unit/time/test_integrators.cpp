@@ -65,7 +65,7 @@ std::vector<Point> after_changing_steps(const std::string& integrator, int parts
   p.integration.integrator = {integrator}, p.integration.macro_step = 4e-3;
   p.integration.implicit.newton_tolerance = 1e-10, p.integration.implicit.relative_residual = 1e-12;
   LevelProbe<Host> probe(p);
-  SolverLevel<Host>& level = probe.at(0);
+  Level<Host>& level = probe.at(0);
   auto u = p.body.levels[0].vertices;
   for (Point& x : u) x = {0.02 * x[0], 0.05 * x[0], 0};
   level.state = {device_field<Host>(u), device_field<Host>(probe.zero())};

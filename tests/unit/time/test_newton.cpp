@@ -36,7 +36,7 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
   Problem p = small_cube("neo_hookean", 2);
   p.gravity = {1, 2, -9.81}, p.body.damping.mass = 30, p.body.fixed = {left_face()};
   LevelProbe<Host> probe(p);
-  SolverLevel<Host>& level = probe.at(0);
+  Level<Host>& level = probe.at(0);
   const std::size_t n = probe.vertices();
   const plica::State<Host> base(device_field<Host>(random_field(n, 1e-3, 1)),
                                 device_field<Host>(random_field(n, 1, 2)));
@@ -45,8 +45,8 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
   for (std::size_t i = 0; i < n; ++i)
     if (p.body.levels[0].vertices[i][0] < 1e-9) change[i].setZero();
   const double a = 3e-4, b = 2e-2;  // not each other's square: as generalized_alpha has them
-  const Vectors<Host> dead("test.dead", n);
-  level.dead(0, dead);
+  const Vectors<Host> dead_loads("test.dead", n);
+  level.dead_loads(0, dead_loads);
   const BlockSums<Host> blocks(static_cast<int>(level.partial.extent(0)));
   const Kokkos::View<double*, Host::Memory> result("test.result", 7);
   const auto at = [&](double t) {
@@ -58,8 +58,11 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
     level.linearise(level.state, 0, {a, b}, 0, level.f);
     reduce<Host, 7, StagePotential<Host>, Sums<7>>(
         {}, "test", static_cast<int>(n),
-        StagePotential<Host>{
-            {level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},
+        StagePotential<Host>{{level.model, base, level.state, a, b},
+                             level.f,
+                             dead_loads,
+                             device_field<Host>(change),
+                             0},
         blocks, result);
     return std::array<double, 2>{result(0) + probe.elastic_energy(x), result(2)};
   };

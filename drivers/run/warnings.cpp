@@ -90,7 +90,7 @@ void doubt_integrator(const Problem& problem, std::vector<std::string>& sentence
 
 }  // namespace
 
-std::vector<std::string> doubts(const Problem& problem) {
+std::vector<std::string> problem_warnings(const Problem& problem) {
   std::vector<std::string> sentences;
   const std::vector<TetMesh>& levels = problem.body.levels;
   for (std::size_t i = 1; i < levels.size(); ++i)

@@ -11,14 +11,14 @@
 namespace plica {
 
 /// File in memory.
-struct MemoryFile {
+struct FileBytes {
   std::string name;  ///< file name in errors; its extension names the format
   std::string bytes;
 };
 
 /// Reads a whole file. Throws an InputError with the system's reason if that fails, and for
 /// folders, pipes and devices.
-MemoryFile load_file(const std::filesystem::path& path);
+FileBytes load_file(const std::filesystem::path& path);
 
 /// Position in a file: a line, or a byte of a binary file.
 struct Place {

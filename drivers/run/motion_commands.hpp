@@ -12,30 +12,30 @@ namespace plica {
 /// Motions of obstacles as callers have set them, since the oldest state that a simulation can go
 /// back to. In steps that are taken again, obstacles move as they did the first time.
 ///
-///   then_     how each obstacle moved before all of these
+///   initial_     how each obstacle moved before all of these
 ///   said_     | time, obstacle, its motion or turn | ...      ascending in time
 ///             after going back, those from next_ on are not yet applied again
 template <class B>
-class MotionLog {
+class MotionCommands {
  public:
-  using Said = std::variant<Motion, std::optional<Turn>>;
+  using Command = std::variant<Motion, std::optional<Turn>>;
 
-  explicit MotionLog(const ContactOptions& contact) {
-    for (const ObstacleOptions& o : contact.obstacles) then_.push_back({o.motion, o.turn});
+  explicit MotionCommands(const ContactOptions& contact) {
+    for (const ObstacleOptions& o : contact.obstacles) initial_.push_back({o.motion, o.turn});
   }
 
   /// Records how an obstacle moves from this time [s] on. Forgets what was set for later times.
-  void say(const Contact<B>& contact, double time, int obstacle, const Said& what) {
+  void record(const Contact<B>& contact, double time, int obstacle, const Command& what) {
     said_.erase(said_.begin() + static_cast<std::ptrdiff_t>(next_), said_.end());
     said_.push_back({time, obstacle, what});
     go_on(contact, time);
   }
 
   /// Makes obstacles move as they did before this time [s].
-  void go_back(const Contact<B>& contact, double time) {
-    for (std::size_t o = 0; o < then_.size(); ++o) {
-      contact.set_motion(static_cast<int>(o), then_[o].motion);
-      contact.set_turn(static_cast<int>(o), then_[o].turn);
+  void restore_snapshot(const Contact<B>& contact, double time) {
+    for (std::size_t o = 0; o < initial_.size(); ++o) {
+      contact.set_motion(static_cast<int>(o), initial_[o].motion);
+      contact.set_turn(static_cast<int>(o), initial_[o].turn);
     }
     for (next_ = 0; next_ < said_.size() && said_[next_].time < time; ++next_)
       apply(contact, said_[next_]);
@@ -50,7 +50,7 @@ class MotionLog {
   void forget_before(double time) {
     std::size_t count = 0;
     for (; count < next_ && said_[count].time < time; ++count) {
-      Moves& moves = then_[static_cast<std::size_t>(said_[count].obstacle)];
+      Moves& moves = initial_[static_cast<std::size_t>(said_[count].obstacle)];
       if (const Motion* motion = std::get_if<Motion>(&said_[count].what)) moves.motion = *motion;
       if (const auto* turn = std::get_if<std::optional<Turn>>(&said_[count].what))
         moves.turn = *turn;
@@ -60,7 +60,7 @@ class MotionLog {
   }
 
   /// Forgets all that is only needed to go back, and what is not yet applied again.
-  void forget() {
+  void reset_history() {
     forget_before(std::numeric_limits<double>::infinity());
     said_.clear(), next_ = 0;
   }
@@ -73,9 +73,9 @@ class MotionLog {
   struct Change {
     double time;
     int obstacle;
-    Said what;
+    Command what;
   };
-  std::vector<Moves> then_;
+  std::vector<Moves> initial_;
   std::vector<Change> said_;
   std::size_t next_ = 0;
 

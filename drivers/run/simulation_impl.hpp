@@ -8,7 +8,7 @@
 #include <plica/drivers/run/busy_cores.hpp>
 #include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
-#include <plica/drivers/run/motion_log.hpp>
+#include <plica/drivers/run/motion_commands.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
 
@@ -19,12 +19,12 @@ template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
 template <class B>
-using KeptStress = typename Viscosity<B>::Kept;
+using StressSnapshot = typename Viscosity<B>::Snapshot;
 
 /// Data and functions of a simulation, for the sources that implement it.
 template <class B>
-struct Simulation<B>::Inside {
-  Inside(const Problem& p, const Exec& exec);
+struct Simulation<B>::Impl {
+  Impl(const Problem& p, const Exec& exec);
 
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
@@ -55,11 +55,11 @@ struct Simulation<B>::Inside {
   Point drift = Point::Zero();   // mean velocity at the last check [m/s]
 
   /// Snapshot: a state to go back to, and what belongs to it.
-  struct Kept {
+  struct Snapshot {
     std::vector<State<B>> levels;
-    std::vector<KeptStress<B>> stress;  ///< only with viscous materials
-    Doubles<B> memory;                  ///< memory of obstacles: see Contact::memory()
-    std::vector<typename ContactResponse<B>::Kept> contact;
+    std::vector<StressSnapshot<B>> stress;  ///< only with viscous materials
+    Doubles<B> memory;                      ///< memory of obstacles: see Contact::memory()
+    std::vector<typename ContactResponse<B>::Snapshot> contact;
     double time = 0, put_in = 0;
     long steps = 0;
     Point drift = Point::Zero();
@@ -67,27 +67,27 @@ struct Simulation<B>::Inside {
   Doubles<B> memory;  // memory of obstacles: see Contact::memory()
   // The last snapshot, and one from long before: a state that looks good may have been going wrong
   // for a while. The older one only where the stepper can repair.
-  Kept kept;
-  std::optional<Kept> older;
-  MotionLog<B> motions;  // how callers have moved obstacles
+  Snapshot kept;
+  std::optional<Snapshot> fallback;
+  MotionCommands<B> motions;  // how callers have moved obstacles
   std::function<void()> after_repeated;
 
   StepControl control;  // division of macro steps that fail
   // number of parts of macro steps that were taken again; of parts that were taken though not
   // solved
   long rejected = 0, unsolved = 0;
-  std::optional<Kept> part_start;  // snapshot at the start of a part, where parts are judged
+  std::optional<Snapshot> part_start;  // snapshot at the start of a part, where parts are judged
 
   std::optional<SharedCores<B>> cores;  // only where cores are shared with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
-  const SolverLevel<B>& level(int i);
+  const Level<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
   // throws InputError where there is no obstacle of that number
   const Contact<B>& contact_with(int obstacle) const;
   // grasps (closed) or releases; throws InputError where the obstacle has no grasp
   void hold_now(int obstacle, bool closed);
-  void move(int obstacle, const typename MotionLog<B>::Said& how);  // from now on
+  void move(int obstacle, const typename MotionCommands<B>::Command& how);  // from now on
   // unbalanced part of the forces after the last part of a step: see Integrator::unsolved()
   double left_unsolved() const;
 
@@ -106,10 +106,10 @@ struct Simulation<B>::Inside {
 
   // Snapshots
   void keep_at_times();
-  void keep(Kept& to);
-  void keep_anew();
-  void go_back(const Kept& to);
-  void remember();
+  void keep(Snapshot& to);
+  void reset_snapshots();
+  void restore_snapshot(const Snapshot& to);
+  void accept_state();
   void restart();
   void open_budget();
 

@@ -6,8 +6,8 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 constexpr double flat = 1e-9;  // six times the volume over the longest edge cubed
 
 template <typename... Parts>
-[[noreturn]] void refuse(const RawMesh& raw, const Place& place, const Parts&... parts) {
+[[noreturn]] void refuse(const ParsedMesh& raw, const Place& place, const Parts&... parts) {
   std::ostringstream text;
   text.precision(12);
   (text << ... << parts);
@@ -37,7 +37,7 @@ std::array<int, 4> sorted(std::array<int, 4> tet) {
   return tet;
 }
 
-void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 4>& corners,
+void refuse_flat(const ParsedMesh& raw, const RawTet& tet, const std::array<Point, 4>& corners,
                  double volume) {
   double longest = 0.0;
   for (std::size_t i = 0; i < 4; ++i)
@@ -50,7 +50,7 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
 
 // Adds the tetrahedra, and turns those that are inside out. Their vertices are indices in
 // raw.vertices: vertices of no tetrahedron are dropped later.
-void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh,
+void add_tets(const ParsedMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh,
               MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
   for (const RawTet& tet : raw.tets) {
@@ -77,7 +77,7 @@ void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, T
 
 // Refuses a folded cell, whose pieces have volumes of both signs. A cell that is only inside out
 // has pieces of one sign.
-void refuse_folded(const RawMesh& raw, const VertexNumbers& numbering) {
+void refuse_folded(const ParsedMesh& raw, const VertexNumbers& numbering) {
   const auto nobody = [] { return std::string(); };
   for (std::size_t c = 0; c < raw.cut.size(); c += 2) {
     bool above = false, below = false;
@@ -111,7 +111,7 @@ void drop_repeats(TetMesh& mesh, MeshReport& report) {
   if (!mesh.region.empty()) mesh.region.resize(kept);
 }
 
-void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
+void refuse_repeats(const ParsedMesh& raw, const TetMesh& mesh) {
   std::vector<std::pair<std::array<int, 4>, std::size_t>> keys;
   keys.reserve(mesh.tets.size());
   for (const auto& tet : mesh.tets) keys.emplace_back(sorted(tet), keys.size());
@@ -129,7 +129,7 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
 
 /// Refuses tetrahedra that overlap at a face. Call it after refuse_repeats(), while the tetrahedra
 /// of the mesh are those of the file, in its order.
-void refuse_overlaps(const RawMesh& raw, const TetMesh& mesh) {
+void refuse_overlaps(const ParsedMesh& raw, const TetMesh& mesh) {
   const std::vector<std::size_t> found = overlap_at_a_face(mesh);
   if (found.empty()) return;
   const RawTet &one = raw.tets[found[0]], &two = raw.tets[found[1]];
@@ -143,7 +143,7 @@ void refuse_overlaps(const RawMesh& raw, const TetMesh& mesh) {
          " and ", two.tag, ", which share it already; expected tetrahedra that do not overlap");
 }
 
-void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
+void add_sets(const ParsedMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
               MeshReport& report) {
   const auto element = [] { return "an element"; };
   for (const RawTriangle& triangle : raw.triangles)
@@ -169,7 +169,7 @@ void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
 
 // Counts the middles of edges and faces that no tetrahedron of the mesh uses: they are not reported
 // as unreferenced, as elements of the file use them
-int count_middles(const RawMesh& raw, const VertexNumbers& numbering,
+int count_middles(const ParsedMesh& raw, const VertexNumbers& numbering,
                   const std::vector<int>& number) {
   std::set<int> middles;
   for (const RawMention& mention : raw.middles) {
@@ -180,7 +180,7 @@ int count_middles(const RawMesh& raw, const VertexNumbers& numbering,
   return static_cast<int>(middles.size());
 }
 
-void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
+void drop_unreferenced(const ParsedMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
                        MeshReport& report) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const auto& tet : mesh.tets)
@@ -206,7 +206,7 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
 
 // Adds the named vectors: each tetrahedron gets that of its cell, or the mean of its corners. Of
 // two fields with one name the first is used. Call it after all numbers are final.
-void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
+void add_vectors(const ParsedMesh& raw, TetMesh& mesh, const MeshReport& report) {
   for (const RawVectors& field : raw.vectors) {
     const auto [place, is_new] = mesh.tet_vectors.try_emplace(field.name);
     for (std::size_t t = 0; is_new && t < mesh.tets.size(); ++t) {
@@ -234,7 +234,7 @@ void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
 
 }  // namespace
 
-TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws) {
+TetMesh validated_mesh(const ParsedMesh& raw, MeshReport& report, Flaws flaws) {
   if (raw.tets.empty()) refuse(raw, {}, "the file holds no tetrahedron");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));

@@ -37,7 +37,7 @@ struct ForeseenVolumes {
 /// Computes the mixed pressures after a change du: excess (S (J + cof F : du) - 1) at u - du, where
 /// u includes du already.
 template <class B>
-void carry_pressures(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+void carry_pressures(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                      const Vectors<B>& du) {
   const NodalRows<B>& rows = level.model.rows;
   const NodalWork<B>& work = level.nodal;

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/fields.hpp>
 #include <plica/core/launch.hpp>
-#include <plica/core/level.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/small.hpp>
 
 // Relaxation by Prony series, by the method of Simo (Simo & Hughes, Computational Inelasticity,
@@ -18,8 +18,8 @@
 //   share = sum alpha_i (1 - gain_i),   lost = sum alpha_i (gain_i S_n - keep_i H_i):
 //
 // over a step the material is the elastic one with 1 - share of its energy of shape, less the
-// relaxed stress `lost`, which does not depend on the state. Elastic kernels compute the elastic
-// part with other constants; the kernels of lost_stress.hpp compute the relaxed stress.
+// relaxed stress `relaxed`, which does not depend on the state. Elastic kernels compute the elastic
+// part with other constants; the kernels of relaxed_stress.hpp compute the relaxed stress.
 namespace plica {
 
 /// Loads numbers first to first + 5 of `count` as a symmetric matrix, of the slots in T's lanes.
@@ -48,8 +48,8 @@ KOKKOS_INLINE_FUNCTION Mat3<T> pushed_forward(const Mat3<T>& F, const SymMat3<T>
   return (T(1) / determinant(F)) * (F * matrix_of(S) * transpose(F));
 }
 
-/// Steps of the Prony series of each region over a time t, see stress_memory.hpp. A term of alpha 0
-/// has no effect.
+/// Steps of the Prony series of each region over a time t, see viscous_history.hpp. A term of alpha
+/// 0 has no effect.
 template <class B>
 struct RelaxationSteps {
   using Real = typename B::Real;
@@ -58,7 +58,7 @@ struct RelaxationSteps {
   Changing<B, double> t;  ///< time of the step [s]
   bool backward_euler = false;
   Scalars<B> step;    ///< [regions][terms][2] keep and gain
-  Scalars<B> weight;  ///< [regions][1 + terms] factors of S_n and of each -H_i in `lost`
+  Scalars<B> weight;  ///< [regions][1 + terms] factors of S_n and of each -H_i in `relaxed`
   Scalars<B> share;   ///< [regions] part of the energy of shape that relaxes
 
   KOKKOS_INLINE_FUNCTION void operator()(int region) const {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 #include <plica/core/mesh.hpp>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -116,7 +116,7 @@ struct RawVectors {
 };
 
 /// Unchecked content of a mesh file, as the parser of any format returns it.
-struct RawMesh {
+struct ParsedMesh {
   std::string file;
   std::string vertex_file;  ///< file of the vertices, if it is another one
   std::vector<RawVertex> vertices;
@@ -137,14 +137,14 @@ struct RawMesh {
 
 /// Makes regions from a number per tetrahedron, in ascending order. Numbers with one name are one
 /// region. Where all numbers are 0 there is one nameless region.
-void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
+void name_regions(ParsedMesh& raw, const std::vector<std::int64_t>& numbers,
                   const std::function<std::string(std::int64_t)>& name_of);
 
 /// Map from the numbers of vertices in a file to their indices in raw.vertices.
 class VertexNumbers {
  public:
   /// Builds the map; throws an InputError for a vertex that is defined twice or not finite.
-  explicit VertexNumbers(const RawMesh& raw);
+  explicit VertexNumbers(const ParsedMesh& raw);
 
   /// Returns the index of a vertex. Throws an InputError "WHO names node TAG, ..." for a number
   /// that the file does not define.
@@ -153,7 +153,7 @@ class VertexNumbers {
   int find(std::int64_t tag) const;
 
  private:
-  const RawMesh& raw_;
+  const ParsedMesh& raw_;
   std::unordered_map<std::int64_t, int> index_;
 };
 
@@ -175,7 +175,7 @@ const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t t
 
 /// Adds a face, as a triangle or a polygon.
 void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
-              RawMesh& raw);
+              ParsedMesh& raw);
 
 /// Adds an element of any kind. Cells become tetrahedra, faces become triangles or polygons; points
 /// and lines are only checked. Elements of higher order are reduced to their corners.
@@ -185,7 +185,7 @@ void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Pla
 /// way.
 /// @return the number of tetrahedra that were added
 std::size_t add_element(const ElementKind& kind, std::int64_t tag,
-                        std::span<const std::int64_t> vertices, const Place& place, RawMesh& raw,
+                        std::span<const std::int64_t> vertices, const Place& place, ParsedMesh& raw,
                         MeshReport& report);
 
 /// Adds a point, line or face to a group. A quadrangle becomes two triangles, cut from its vertex

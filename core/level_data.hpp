@@ -108,7 +108,7 @@ struct FollowerLoad {
 /// Memory of a viscous material for its elements: packs of linear ones, rows of nodal ones. A
 /// symmetric matrix is xx yy zz xy xz yz.
 template <class B>
-struct StressMemory {
+struct ViscousHistory {
   int terms = 0;      ///< number of terms of the longest Prony series
   Indices<B> region;  ///< [slots / lanes]
   /// [regions][terms][2] keep and gain of H_i <- keep H_i + gain (S - S before) over a step
@@ -117,26 +117,24 @@ struct StressMemory {
   Scalars<B> memory;
   /// [slots][6] relaxed stress at the time of the forces, without the part that follows the state.
   /// It is taken off the second Piola stress [Pa]
-  Scalars<B> lost;
+  Scalars<B> relaxed;
 };
 
 /// One resolution of the body: constants, state, work arrays, and the exchange of states with its
 /// neighbour levels. Members that a scene does not need stay empty.
 template <class B>
-struct Level {
+struct LevelData {
   Model<B> model;
   State<B> state;
   PrescribedVertices<B> prescribed;
-  std::vector<Load<B>> loads;
-  std::vector<FollowerLoad<B>> followers;
   EmbeddedSurface<B> surface;  ///< with contact; on level 0 also for output
 
   Vectors<B> f;  ///< [vertices][3] force at the state about to be integrated [N]
   /// [shares][3] results of the element kernels, a row per share
   Vectors<B> partial;
-  NodalWork<B> nodal;      ///< work arrays of nodal elements
-  StressMemory<B> stress;  ///< memory of viscous materials
-  ElementFlags<B> flags;   ///< inverted elements, where none is allowed
+  NodalWork<B> nodal;        ///< work arrays of nodal elements
+  ViscousHistory<B> stress;  ///< memory of viscous materials
+  ElementFlags<B> flags;     ///< inverted elements, where none is allowed
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, empty on the finest

@@ -5,7 +5,7 @@
 #include <plica/kernels/him/inverse_mass.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Frames of the coarsest level (axes in the code), and the force that follows from their rotation.
+// Frames of the coarsest level, and the force that follows from their rotation.
 //
 // The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body
 // that has turned it must be R S R^T, where R turns the frame of each coarse vertex. R comes from
@@ -24,7 +24,7 @@
 // With q the coarse momentum and y = b R S R^T q, a turn of R_a by w changes the energy by w.(y_a x
 // q_a), which gives the torque. R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
 //
-// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until q
+// The force changes the momentum q that it depends on: CoarseFrames::find_torques repeats until q
 // has converged. From the torques to what they add to q all is linear and constant, so that one
 // matrix does it; the force itself is needed only once.
 namespace plica {
@@ -35,13 +35,13 @@ KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A
     for (int j = 0; j < 3; ++j) x(3 * a + i, j) = A[i][j];
 }
 
-/// Computes `values` numbers for each vertex of a work item, by a matrix of CoarseAxes.
+/// Computes `values` numbers for each vertex of a work item, by a matrix of FrameFields.
 template <class B, int values, class Matrix>
 KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int columns,
                                        const Vectors<B>& x,
                                        typename B::Real (&y)[values][group_size<B>]) {
-  dense_rows<B, group_size<B>, values, CoarseFilter<B>::group>(matrix.data(), item, columns,
-                                                               x.data(), y);
+  dense_rows<B, group_size<B>, values, CoarseInverseMass<B>::group>(matrix.data(), item, columns,
+                                                                    x.data(), y);
 }
 
 /// Computes the rotation Q nearest to A (its polar factor) by Newton's iteration (Higham 1986). The
@@ -66,24 +66,24 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
 /// Computes R and (tr U 1 - U)^-1 from u_C. Per work item it sums up the squares of the angles
 /// since the last call.
 template <class B>
-struct TurnAxes {
+struct TurnFrames {
   using Real = typename B::Real;
-  CoarseAxes<B> axes;
+  FrameFields<B> frames;
   Vectors<B> rotation;
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int n = static_cast<int>(axes.at_rest.extent(0)), first = item * group_size<B>;
+    const int n = static_cast<int>(frames.at_rest.extent(0)), first = item * group_size<B>;
     Real derivative[3][3][group_size<B>];
     for (int j = 0; j < 3; ++j)
-      group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, derivative[j]);
+      group_rows<B, 3>(frames.gradient_of[j], item, n, frames.displacement, derivative[j]);
     double sum = 0;
     for (int i = 0; i < group_size<B> && first + i < n; ++i) {
       Mat3<Real> G;
       for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
-          G[k][j] = derivative[j][k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
+          G[k][j] = derivative[j][k][i] + (k == j ? frames.at_rest(first + i) : Real(0));
       sum += static_cast<double>(turn(first + i, G));
     }
-    axes.angles(item) = sum;
+    frames.angles(item) = sum;
   }
   KOKKOS_INLINE_FUNCTION Real turn(int a, const Mat3<Real>& G) const {
     const Mat3<Real> before = matrix_at<Real>(rotation, a);
@@ -95,7 +95,7 @@ struct TurnAxes {
       inverse = (Real(1) / determinant(Z)) * cofactor(Z);  // symmetric
     }
     set_matrix(rotation, a, R);
-    set_matrix(axes.stiffness, a, inverse);
+    set_matrix(frames.stiffness, a, inverse);
     return Kokkos::max(Real(0), Real(3) - inner(R, before));
   }
 };
@@ -110,7 +110,7 @@ struct CoarseMomentum {
 /// Computes R^T q, q = given + share.
 template <class B>
 struct StartMomentum {
-  CoarseFilter<B> filter;
+  CoarseInverseMass<B> filter;
   CoarseMomentum<B> momentum;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     turn_force(filter, a, vector_at<B>(momentum.given, a) + vector_at<B>(momentum.share, a));
@@ -121,7 +121,7 @@ struct StartMomentum {
 /// share, of the share and of all the momentum, added up by every work item for itself. Rounds
 /// after one that changed little do nothing, and leave sums of 0.
 template <class B>
-struct RoundOfAxes {
+struct FrameRound {
   static constexpr double tolerance = 1e-3, least = 1e-6;
   /// [groups]; empty before the first round
   Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> sums;
@@ -140,11 +140,11 @@ struct RoundOfAxes {
 
 /// Computes torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R S R^T q.
 template <class B>
-struct TorqueOnAxes {
+struct TorqueOnFrames {
   using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  CoarseFilter<B> filter;
-  RoundOfAxes<B> last;
+  FrameFields<B> frames;
+  CoarseInverseMass<B> filter;
+  FrameRound<B> last;
   Real weight;
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     if (!last.goes_on()) return;
@@ -152,9 +152,10 @@ struct TorqueOnAxes {
     filtered(filter, item, x);
     for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a) {
       const Vec3<Real> answer{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]};
-      const Vec3<Real> h = matrix_at<Real>(axes.stiffness, a) *
+      const Vec3<Real> h = matrix_at<Real>(frames.stiffness, a) *
                            (weight * cross(vector_at<B>(filter.turned, a), answer));
-      set_matrix(axes.torque, a, transpose(matrix_at<Real>(filter.rotation, a) * cross_matrix(h)));
+      set_matrix(frames.torque, a,
+                 transpose(matrix_at<Real>(filter.rotation, a) * cross_matrix(h)));
     }
   }
 };
@@ -163,16 +164,16 @@ struct TorqueOnAxes {
 template <class B>
 struct NextMomentum {
   using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  CoarseFilter<B> filter;
+  FrameFields<B> frames;
+  CoarseInverseMass<B> filter;
   CoarseMomentum<B> momentum;
-  RoundOfAxes<B> last, now;
+  FrameRound<B> last, now;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     double sums[3] = {};
     if (last.goes_on()) {
       Real added[3][group_size<B>];
-      group_rows<B, 3>(axes.response, item, 3 * filter.vertices, axes.torque, added);
+      group_rows<B, 3>(frames.response, item, 3 * filter.vertices, frames.torque, added);
       for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices;
            ++i, ++a) {
         const Vec3<Real> next = t * Vec3<Real>{added[0][i], added[1][i], added[2][i]},
@@ -193,13 +194,13 @@ struct NextMomentum {
 template <class B>
 struct ForceOfTorques {
   using Real = typename B::Real;
-  CoarseAxes<B> axes;
+  FrameFields<B> frames;
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int n = static_cast<int>(axes.force.extent(0)), first = item * group_size<B>;
+    const int n = static_cast<int>(frames.force.extent(0)), first = item * group_size<B>;
     Real g[3][group_size<B>];
-    group_rows<B, 3>(axes.force_of, item, 3 * n, axes.torque, g);
+    group_rows<B, 3>(frames.force_of, item, 3 * n, frames.torque, g);
     for (int i = 0; i < group_size<B> && first + i < n; ++i)
-      set_vector<B>(axes.force, first + i, {g[0][i], g[1][i], g[2][i]});
+      set_vector<B>(frames.force, first + i, {g[0][i], g[1][i], g[2][i]});
   }
 };
 
@@ -214,7 +215,7 @@ struct ForceAndAnswer {
 
 /// Adds t E^T g to p of vertices that forces move, and to q, where there is one. Returns p.
 template <class B>
-struct PushByAxes {
+struct PushByFrames {
   using Real = typename B::Real;
   SparseRows<B> spread;
   Scalars<B> inverse_mass;
@@ -233,7 +234,7 @@ struct PushByAxes {
 /// Adds the force of frames to p, and computes the finest level's response to p.
 template <class B>
 struct AnswerOfPushed {
-  PushByAxes<B> push;
+  PushByFrames<B> push;
   AnswerOfFinest<B> answer;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     set_vector<B>(answer.acceleration, a, answer.of(a, push(a)));
@@ -252,7 +253,7 @@ struct AccelerationOfPushed {
 
 /// Adds a middle level's share of the force of frames to its momentum: t Pi^T E^T g.
 template <class B>
-struct AddShareOfAxes {
+struct AddShareOfFrames {
   using Real = typename B::Real;
   SparseRows<B, float> response;
   Vectors<B> force, momentum;

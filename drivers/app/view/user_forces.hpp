@@ -11,10 +11,10 @@ namespace plica::app {
 /// Forces of a user of the live view on the vertices of every level. They are those of a spring
 /// that pulls, of a ball that pushes, and of the change of gravity.
 template <class B>
-class Hands {
+class UserForces {
  public:
   /// Prepares the forces on the body of a scene; `size` is the size of the body [m].
-  Hands(const Scene& scene, const Simulation<B>& simulation, double size);
+  UserForces(const Scene& scene, const Simulation<B>& simulation, double size);
 
   /// Sets the controls for the next macro step, which starts at this time [s]. Hand and ball follow
   /// the controls at a bounded speed.

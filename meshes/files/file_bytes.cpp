@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/reading.hpp>
 #include <system_error>
 
@@ -22,8 +22,8 @@ std::string path_shown(const std::string& name) {
 
 }  // namespace
 
-MemoryFile load_file(const std::filesystem::path& path) {
-  MemoryFile file{path.string(), {}};
+FileBytes load_file(const std::filesystem::path& path) {
+  FileBytes file{path.string(), {}};
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) refuse(file.name, {}, "is a folder, not a file");

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <plica/core/to_device.hpp>
-#include <plica/drivers/cycles/him/turning_axes.hpp>
+#include <plica/drivers/cycles/him/coarse_frames.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -87,10 +87,10 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
 
 }  // namespace
 
-AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
-                       const std::vector<double>& mass) {
+FrameShape frames_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
+                          const std::vector<double>& mass) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
-  AxesShape result;
+  FrameShape result;
   result.restriction = restriction_by_mass(finest, coarsest, mass);
   const std::vector<Point> x = restricted(result.restriction, finest.vertices);
   double mean = 0;
@@ -169,10 +169,10 @@ using DirectedRows = std::array<RowMatrix, 3>;
 
 }  // namespace
 
-AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
-                        const std::vector<double>& mass) {
+FrameShape frames_of_space(const TetMesh& finest, const RowMatrix& to_finest,
+                           const std::vector<double>& mass) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
-  AxesShape result;
+  FrameShape result;
   const Eigen::Index n = to_finest.cols();
   const Eigen::Map<const Eigen::VectorXd> m(mass.data(), to_finest.rows());
   const RowMatrix weights = main_weights(to_finest),
@@ -224,7 +224,7 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
 
 namespace {
 
-/// Dense matrix [n][3 n or n] in the order of CoarseAxes: [groups of rows][columns][rows of a
+/// Dense matrix [n][3 n or n] in the order of FrameFields: [groups of rows][columns][rows of a
 /// group].
 template <class B, class Number>
 class DenseMatrix {
@@ -236,12 +236,12 @@ class DenseMatrix {
     values_[static_cast<std::size_t>((row / group * columns_ + column) * group + row % group)] =
         static_cast<Number>(value);
   }
-  typename CoarseAxes<B>::template Dense<Number> on_device(const std::string& name) const {
-    return to_device<typename CoarseAxes<B>::template Dense<Number>>(name, values_);
+  typename FrameFields<B>::template Dense<Number> on_device(const std::string& name) const {
+    return to_device<typename FrameFields<B>::template Dense<Number>>(name, values_);
   }
 
  private:
-  static constexpr Eigen::Index group = CoarseFilter<B>::group;
+  static constexpr Eigen::Index group = CoarseInverseMass<B>::group;
   Eigen::Index columns_;
   std::vector<Number> values_;
 };
@@ -252,9 +252,9 @@ void for_entries(const RowMatrix& A, const Add& add) {
     for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) add(a, entry.col(), entry.value());
 }
 
-/// Sets the matrices of CoarseAxes that depend on the gradient G = W D.
+/// Sets the matrices of FrameFields that depend on the gradient G = W D.
 template <class B>
-void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>& axes) {
+void set_gradient(const FrameShape& shape, const RowMatrix& moved, FrameFields<B>& frames) {
   using Real = typename B::Real;
   const Eigen::Index n = moved.rows();
   DenseMatrix<B, Real> force_of(n, 3 * n);
@@ -271,31 +271,32 @@ void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>&
     for_entries(
         product(moved, RowMatrix(G.transpose())),
         [&](Eigen::Index a, Eigen::Index b, double value) { response.set(a, 3 * b + j, value); });
-    axes.gradient_of[j] = gradient_of.on_device("axes.gradient_of");
+    frames.gradient_of[j] = gradient_of.on_device("axes.gradient_of");
   }
-  axes.force_of = force_of.on_device("axes.force_of"),
-  axes.response = response.on_device("axes.response");
+  frames.force_of = force_of.on_device("axes.force_of"),
+  frames.response = response.on_device("axes.response");
   const Eigen::VectorXd rest =
       shape.smoothing * Eigen::Map<const Eigen::VectorXd>(shape.at_rest.data(), n);
-  axes.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(rest.begin(), rest.end()));
+  frames.at_rest =
+      to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(rest.begin(), rest.end()));
 }
 
 }  // namespace
 
 template <class B>
-TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& moved)
+CoarseFrames<B>::CoarseFrames(const FrameShape& shape, const RowMatrix& moved)
     : vertices_(static_cast<int>(shape.at_rest.size())),
       sums_(zeros<Sums>("plica::axes.sums",
                         static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
-  axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
-  axes_.spread = sparse_rows<B>("axes.spread", RowMatrix(shape.restriction.transpose()));
-  set_gradient<B>(shape, moved, axes_);
+  frames_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
+  frames_.spread = sparse_rows<B>("axes.spread", RowMatrix(shape.restriction.transpose()));
+  set_gradient<B>(shape, moved, frames_);
   const auto n = static_cast<std::size_t>(vertices_);
-  for (Vectors<B>* one : {&share_, &axes_.displacement, &axes_.force})
+  for (Vectors<B>* one : {&share_, &frames_.displacement, &frames_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);
-  axes_.angles =
+  frames_.angles =
       zeros<Doubles<B>>("plica::axes.angles", static_cast<std::size_t>(groups_of<B>(vertices_)));
-  for (Vectors<B>* one : {&axes_.stiffness, &axes_.torque})
+  for (Vectors<B>* one : {&frames_.stiffness, &frames_.torque})
     *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
   std::vector<std::array<Real, 3>> unit(3 * n);
   for (std::size_t k = 0; k < unit.size(); ++k) unit[k][k % 3] = 1;
@@ -303,39 +304,40 @@ TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& moved)
 }
 
 template <class B>
-void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u) const {
+void CoarseFrames<B>::turn(const Exec& exec, const Vectors<B>& u) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
-                     MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
+                     MultiplyRows<B>{frames_.restriction, u, frames_.displacement});
   update_vertices<B>(exec, "plica::axes_turn", groups_of<B>(vertices_),
-                     TurnAxes<B>{axes_, rotation_});
+                     TurnFrames<B>{frames_, rotation_});
 }
 
 template <class B>
-void TurningAxes<B>::find_torques(const Exec& exec, const Vectors<B>& given,
-                                  const CoarseFilter<B>& filter, double weight, double t) const {
+void CoarseFrames<B>::find_torques(const Exec& exec, const Vectors<B>& given,
+                                   const CoarseInverseMass<B>& filter, double weight,
+                                   double t) const {
   const CoarseMomentum<B> momentum{given, share_};
   const int groups = groups_of<B>(vertices_);
-  RoundOfAxes<B> last;
+  FrameRound<B> last;
   for (int i = 0; i < most_rounds; ++i) {
     update_vertices<B>(exec, "plica::axes_torque", groups,
-                       TorqueOnAxes<B>{axes_, filter, last, static_cast<Real>(weight)});
-    const RoundOfAxes<B> now = round(i);
+                       TorqueOnFrames<B>{frames_, filter, last, static_cast<Real>(weight)});
+    const FrameRound<B> now = round(i);
     update_vertices<B>(exec, "plica::axes_momentum", groups,
-                       NextMomentum<B>{axes_, filter, momentum, last, now, static_cast<Real>(t)});
+                       NextMomentum<B>{frames_, filter, momentum, last, now, static_cast<Real>(t)});
     last = now;
   }
 }
 
 template <class B>
-std::size_t TurningAxes<B>::bytes() const {
-  return bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient_of[0],
-                        axes_.gradient_of[1], axes_.gradient_of[2], axes_.force_of, axes_.response,
-                        axes_.angles, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_,
-                        sums_) +
-         bytes_of_rows(axes_.restriction) + bytes_of_rows(axes_.spread);
+std::size_t CoarseFrames<B>::bytes() const {
+  return bytes_of_views(frames_.at_rest, frames_.displacement, frames_.gradient_of[0],
+                        frames_.gradient_of[1], frames_.gradient_of[2], frames_.force_of,
+                        frames_.response, frames_.angles, frames_.stiffness, frames_.torque,
+                        frames_.force, rotation_, share_, sums_) +
+         bytes_of_rows(frames_.restriction) + bytes_of_rows(frames_.spread);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) template class TurningAxes<Backend<Real, Exec>>;
+#define PLICA_INSTANTIATE(Real, Exec) template class CoarseFrames<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

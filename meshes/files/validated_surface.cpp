@@ -4,8 +4,8 @@
 #include <optional>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/checked.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <utility>
 
@@ -20,7 +20,7 @@ using Triangle = std::array<int, 3>;
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const RawMesh& raw, TriangleSurface& surface, SurfaceReport& report)
+  SurfaceMaker(const ParsedMesh& raw, TriangleSurface& surface, SurfaceReport& report)
       : raw_(raw), numbering_(raw), surface_(surface), report_(report), bad_(raw.bad_faces) {
     for (const RawVertex& vertex : raw.vertices) surface.vertices.push_back(vertex.position);
   }
@@ -116,7 +116,7 @@ class SurfaceMaker {
                              " corners cannot be cut into triangles from one of them");
   }
 
-  const RawMesh& raw_;
+  const ParsedMesh& raw_;
   const VertexNumbers numbering_;
   TriangleSurface& surface_;
   SurfaceReport& report_;
@@ -164,7 +164,8 @@ void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
 
 }  // namespace
 
-TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report) {
+TriangleSurface validated_surface(const ParsedMesh& raw, const MeshReport& found,
+                                  SurfaceReport& report) {
   if (raw.triangles.empty() && raw.polygons.empty() && raw.bad_faces.count == 0)
     refuse(raw.file, Place{}, "the file holds no triangle");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));

@@ -15,7 +15,7 @@ struct Attitude {
   /// Factors of the mean velocity of a step of h, over which a place goes the chord: sin(w h)/(w h)
   /// along w x r, and (1 - cos(w h))/(w h)^2 h inward.
   /// @{
-  double along = 1, inward = 0;
+  double along = 1, to_local = 0;
   /// @}
 };
 
@@ -42,11 +42,11 @@ struct ObstaclePose {
   }
   /// Returns a direction in the axes of the shape; outward() turns it back.
   template <class Real>
-  KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>& d) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> to_local(const Vec3<Real>& d) const {
     return turn.turned ? rounded<Real>(transpose(turn.rotation) * exact(d)) : d;
   }
   template <class Real>
-  KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> to_world(const Vec3<Real>& d) const {
     return turn.turned ? rounded<Real>(turn.rotation * exact(d)) : d;
   }
   KOKKOS_INLINE_FUNCTION bool is_turning() const {
@@ -62,7 +62,7 @@ struct ObstaclePose {
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (!turn.turned) return rounded<Real>(speed);
     const Vec3<double> round = cross(turn.rate, exact(x) - turn.centre - displacement);
-    return rounded<Real>(speed + turn.along * round + turn.inward * cross(turn.rate, round));
+    return rounded<Real>(speed + turn.along * round + turn.to_local * cross(turn.rate, round));
   }
 
  private:
@@ -110,7 +110,7 @@ KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, cons
 /// Source of an obstacle's pose at a time. It is given by motion and turn, or, for a tool with
 /// mass, by numbers that the device computes.
 template <class B>
-struct ObstaclePlace {
+struct ObstaclePose {
   /// Numbers of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x,
   /// y, z) and angular velocity [rad/s].
   static constexpr int numbers = 14, at_time = 6, attitude = 7, rate = 11;

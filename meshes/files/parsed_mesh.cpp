@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
-#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
+#include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <set>
 #include <sstream>
@@ -17,7 +17,7 @@ Point RawVectors::at(std::int64_t tag) const {
   return found == place.end() ? Point(Point::Zero()) : values[found->second];
 }
 
-void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
+void name_regions(ParsedMesh& raw, const std::vector<std::int64_t>& numbers,
                   const std::function<std::string(std::int64_t)>& name_of) {
   const std::set<std::int64_t> used(numbers.begin(), numbers.end());
   if (used.empty() || (used.size() == 1 && used.contains(0))) return;
@@ -31,7 +31,7 @@ void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
   for (std::size_t t = 0; t < raw.tets.size(); ++t) raw.tets[t].region = region.at(numbers[t]);
 }
 
-VertexNumbers::VertexNumbers(const RawMesh& raw) : raw_(raw) {
+VertexNumbers::VertexNumbers(const ParsedMesh& raw) : raw_(raw) {
   const std::string& file = raw.vertex_file.empty() ? raw.file : raw.vertex_file;
   index_.reserve(raw.vertices.size());
   for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
@@ -117,7 +117,7 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
                      "; it must be finite and not below zero");
   const std::vector<std::int64_t> stands_for = representatives(mesh, tolerance);
   const auto of = [&](int v) { return stands_for[static_cast<std::size_t>(v)]; };
-  RawMesh raw;
+  ParsedMesh raw;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (stands_for[v] == static_cast<std::int64_t>(v))
       raw.vertices.push_back({stands_for[v], mesh.vertices[v], {}});
@@ -138,7 +138,7 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
   MergedMesh result;
   MeshReport report;
   try {
-    result.mesh = sound_mesh(raw, report);
+    result.mesh = validated_mesh(raw, report);
   } catch (const InputError& error) {
     std::ostringstream text;
     text << "vertices at most " << tolerance << " m apart cannot be merged: " << error.what();
@@ -193,7 +193,7 @@ bool names_twice(const std::array<std::int64_t, 4>& v) {
 // Cuts a cell into tetrahedra. A cell may name a vertex twice, as a prism written as a hexahedron
 // does; tetrahedra that would name one twice are left out.
 void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> corners,
-              const Place& place, RawMesh& raw) {
+              const Place& place, ParsedMesh& raw) {
   const std::size_t begin = raw.tets.size();
   const std::int64_t lowest = *std::min_element(corners.begin(), corners.end());
   for (const Quadrangle& face : faces_of(static_cast<int>(corners.size())))
@@ -210,7 +210,7 @@ void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::in
 }  // namespace
 
 void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
-              RawMesh& raw) {
+              ParsedMesh& raw) {
   if (corners.size() == 3)
     raw.triangles.push_back({tag, {corners[0], corners[1], corners[2]}, 0, place});
   else
@@ -218,7 +218,7 @@ void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Pla
 }
 
 std::size_t add_element(const ElementKind& kind, std::int64_t tag,
-                        std::span<const std::int64_t> vertices, const Place& place, RawMesh& raw,
+                        std::span<const std::int64_t> vertices, const Place& place, ParsedMesh& raw,
                         MeshReport& report) {
   const auto corners =
       vertices.first(kind.corners > 0 ? static_cast<std::size_t>(kind.corners) : vertices.size());

@@ -11,17 +11,17 @@ namespace plica::app {
 /// Animated surface of a body, as the page shows it. For tetrahedra it is their boundary. Numbers
 /// are stored in 16 bits, as parts of their range over all times. So the resolution of a
 /// displacement is 1/65535 of the largest motion along an axis.
-class Film {
+class SurfaceAnimation {
  public:
   /// Starts the animation with the mesh of its first frame.
   /// @param level  level of the tetrahedra; -1: the surface that every run writes
-  Film(int level, const FrameFile& first);
+  SurfaceAnimation(int level, const FrameFile& first);
   /// Throws InputError if a frame does not have the mesh and the arrays of the first one.
   void check(const FrameFile& frame) const;
   /// Adds a frame, which must have passed check().
   void add(const FrameFile& frame);
   /// Returns true if both have the same triangles and the same shape at rest.
-  bool same_surface(const Film& other) const;
+  bool same_surface(const SurfaceAnimation& other) const;
   /// Returns the animation as a member of the page's data.
   nlohmann::ordered_json json() const;
 

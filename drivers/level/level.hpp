@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
-#include <plica/core/level.hpp>
+#include <plica/core/archive.hpp>
+#include <plica/core/level_data.hpp>
 #include <plica/core/small.hpp>
-#include <plica/core/stage_clock.hpp>
-#include <plica/core/state_archive.hpp>
+#include <plica/core/stage_timer.hpp>
 #include <plica/drivers/contact/contact_response.hpp>
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <plica/drivers/elastic/viscosity.hpp>
 #include <plica/drivers/loads/external_forces.hpp>
-#include <plica/kernels/loads/follower_pressure.hpp>
+#include <plica/drivers/loads/force_term.hpp>
 
 namespace plica {
 
@@ -21,19 +21,20 @@ class Integrator;
 /// the scene does not have are absent. Kernels run in the hierarchy's execution space, whose clock
 /// adds their time under this level's number.
 template <class B>
-class SolverLevel : public Level<B> {
+class Level : public LevelData<B> {
  public:
   using Exec = typename B::Exec;
 
   /// Makes a level without forces and integrator. The clock must outlive it.
-  SolverLevel(Level<B>&& data, StageClock<B>& clock, int number);
-  SolverLevel(SolverLevel&&) noexcept;
-  ~SolverLevel();
+  Level(LevelData<B>&& data, StageTimer<B>& clock, int number);
+  Level(Level&&) noexcept;
+  ~Level();
 
   /// Sets the forces that act on the level from now on. `implicit`: they will be linearised.
   void set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                   std::shared_ptr<const Contact<B>> contact, bool implicit);
 
+  std::vector<std::unique_ptr<ForceTerm<B>>> terms;  ///< see make_force_terms()
   std::unique_ptr<Integrator<B>> integrator;
   std::unique_ptr<Viscosity<B>> viscosity;  ///< only with viscous materials
   double share = 1;                         ///< part of the macro step, from 0 to 1
@@ -43,8 +44,8 @@ class SolverLevel : public Level<B> {
 
   /// Adds the level's state at this time [s] to the history from which stresses relax. To be called
   /// at the start of every step, and wherever else a state is final.
-  void remember(double time) const {
-    if (viscosity) viscosity->remember(exec(), *this, *elasticity_, this->state.u, time);
+  void accept_state(double time) const {
+    if (viscosity) viscosity->accept_state(exec(), *this, *elasticity_, this->state.u, time);
   }
 
   /// Computes f = all forces on a state of this level at a time [s]. `step`: how contact is taken,
@@ -65,56 +66,62 @@ class SolverLevel : public Level<B> {
 
   /// Returns volumes and pressures of the level's cavities at its state. Waits.
   std::vector<CavityState> cavities(double time) const;
-  /// Returns the energy of the pressures that follow the body, at the level's state [J]. Their
-  /// forces are its negative derivative. Only pressures whose triangles enclose a volume count;
-  /// waits where there are some.
-  double follower_energy(double time) const;
-  /// Adds scale K p to q, with K the stiffness of the pressures that follow the body. K is its
-  /// symmetric part, at the state and time of the last evaluation; with `positive`, that of the
-  /// fluids alone.
-  void add_follower_product(const State<B>& state, const Vectors<B>& p, double scale, bool positive,
-                            const Vectors<B>& q) const;
+  /// Returns the energy of the terms at the level's state [J]. Waits where a term has one.
+  double term_energy(double time) const;
+  /// Adds scale K p to q, with K the stiffness of the terms at the state and time of the last
+  /// evaluation; `projected`: see ForceTerm::add_product().
+  void add_term_product(const State<B>& state, const Vectors<B>& p, double scale, bool projected,
+                        const Vectors<B>& q) const;
+  /// Returns whether a term has that kind of stiffness, or any stiffness.
+  bool has_terms(TermStiffness kind) const;
+  bool has_stiff_terms() const {
+    return has_terms(TermStiffness::assembled) || has_terms(TermStiffness::unassembled);
+  }
+  /// Returns an upper bound of what the terms add to the squared frequencies at rest [1/s^2].
+  double term_frequency() const;
 
   /// Computes f = the forces that do not depend on the state: gravity, loads, a correction.
-  void dead(double time, const Vectors<B>& f) const;
+  void dead_loads(double time, const Vectors<B>& f) const;
 
   /// Linearises about a state for an implicit stage. Computes f = all forces without contact, with
   /// loads at a time `ahead` of the state's [s].
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead,
                  const Vectors<B>& f);
   /// Computes q = A p, with A = (1 + b c) M + a K + contact at the linearised state; see
-  /// ImplicitWeights. `positive`: see Elasticity::tangent.
+  /// ImplicitWeights. `projected`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
-               bool positive, const Vectors<B>& q) const;
+               bool projected, const Vectors<B>& q) const;
   /// Adds to q what contact and a caller's forces add to A p.
   void add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
                                    const Vectors<B>& q) const;
   /// Returns whether contact or a caller's forces act on the level.
-  bool acts_beside_elements() const { return contact_ || external_; }
+  bool acts_beside_elements() const {
+    return contact_ || external_ || has_terms(TermStiffness::assembled);
+  }
   /// Adds to q what assemble() leaves out of A p: pressures that follow the body, and contact that
   /// couples several tetrahedra.
   void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p,
-                                 const ImplicitWeights& weights, bool positive,
+                                 const ImplicitWeights& weights, bool projected,
                                  const Vectors<B>& q) const;
   /// Returns whether assemble() leaves nothing out of A.
   bool is_all_in_matrix() const {
-    return this->followers.empty() && !(contact_ && contact_->couples());
+    return !has_terms(TermStiffness::unassembled) && !(contact_ && contact_->couples());
   }
   /// Computes A's vertex blocks without those of contact, [vertices][6] xx yy zz xy xz yz; see
   /// Elasticity::diagonal.
-  void diagonal(const State<B>& state, const ImplicitWeights& weights, bool positive,
+  void diagonal(const State<B>& state, const ImplicitWeights& weights, bool projected,
                 const Blocks<B>& blocks) const;
   /// Assembles A in blocks; with nodal elements, that of the linear elements of the same mesh.
-  /// `positive`: the elements' tangents are projected to positive semi-definite ones.
-  void assemble(const State<B>& state, const ImplicitWeights& weights, bool positive,
+  /// `projected`: the elements' tangents are projected to positive semi-definite ones.
+  void assemble(const State<B>& state, const ImplicitWeights& weights, bool projected,
                 const PatchPairs<B>& pairs, const Blocks9<B>& shares,
                 const BlockMatrix<B>& A) const;
   /// Computes and stores the projected tangents of the state that was linearised last, where
   /// elements keep them.
   void keep_tangents();
   /// Computes partial = the shares of -K p at a state; see Elasticity::tangent.
-  void tangent(const State<B>& state, const Vectors<B>& p, double over = 0,
-               bool positive = false) const;
+  void tangent(const State<B>& state, const Vectors<B>& p, double damping_scale = 0,
+               bool projected = false) const;
 
   /// Computes the energy [J] whose derivative gives the elastic forces of the last evaluation, in
   /// the x components of `partial`.
@@ -122,7 +129,7 @@ class SolverLevel : public Level<B> {
 
   /// Runs work() and adds its time to a stage of this level.
   template <class Work>
-  void book(const char* stage, const Work& work) const {
+  void timed(const char* stage, const Work& work) const {
     clock_->time(stage, number_, work);
   }
   const Elasticity<B>& elasticity() const { return *elasticity_; }
@@ -140,10 +147,10 @@ class SolverLevel : public Level<B> {
   void add_correction(const Vectors<B>& f) const;
   /// Forgets what is carried from one macro step to the next, which does not belong to a state that
   /// was replaced.
-  void forget();
+  void reset_history();
   /// Names to the archive what the level and its integrator carry from one macro step to the next.
   /// `name`: "level 0's ".
-  void persist(StateArchive<B>& archive, const std::string& name);
+  void persist(Archive<B>& archive, const std::string& name);
   /// Begins a macro step: numbers evaluations from 1 again, for the element flags, and sets the
   /// impulses to zero. `part`: its length over that of a whole macro step.
   void begin_macro_step(double part = 1) {
@@ -153,7 +160,7 @@ class SolverLevel : public Level<B> {
   }
 
  private:
-  StageClock<B>* clock_;
+  StageTimer<B>* clock_;
   int number_;
   std::shared_ptr<const Elasticity<B>> elasticity_;
   Vec3<typename B::Real> gravity_;
@@ -166,31 +173,16 @@ class SolverLevel : public Level<B> {
   Blocks<B> external_stiffness_;  ///< only on implicit levels
   long evaluations_ = 0;
   int evaluation_ = 0;
-  BlockSums<B> volumes_;      ///< sums over blocks, for the volumes of cavities
-  Doubles<B> rate_;           ///< [1] rate of a cavity's volume
-  double follower_time_ = 0;  ///< time at which pressures were last asked for [s]
-  Vectors<B> linearised_;     ///< displacements whose gradients are kept
+  Vectors<B> linearised_;  ///< displacements whose gradients are kept
 
-  void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
+  void element_force(const State<B>& state, double time, const Vectors<B>& f);
   /// Returns the displacements from which tangents are computed: none where gradients of them are
   /// kept.
-  Vectors<B> unless_kept(const State<B>& at) const {
+  Vectors<B> state_or_cached(const State<B>& at) const {
     return linearised_.extent(0) > 0 && linearised_.data() == at.u.data() ? Vectors<B>() : at.u;
   }
   void ask_caller(const State<B>& state, double time, double step, double ahead,
                   const Vectors<B>& f);
-  void add_loads(double time, const Vectors<B>& f) const;
-  /// Adds the pressures that follow the state.
-  void add_followers(const State<B>& state, double time, const Vectors<B>& f);
-  GivenPressure<B> given_pressure(const FollowerLoad<B>& load, double time) const;
-  void measure(const FollowerLoad<B>& load, const Vectors<B>& u) const;
-  /// Returns the volume that a load's triangles enclose at the level's state, up to a constant
-  /// [m^3].
-  double enclosed_volume(const FollowerLoad<B>& load) const;
-  /// Returns the pressure of the fluid at the volume that was last measured.
-  FluidPressure<B> last_pressure(const FollowerLoad<B>& load, double time) const;
-  /// Returns the given volume of a cavity, less that of its caps [m^3].
-  double volume_given(const FollowerLoad<B>& load, double time) const;
 };
 
 }  // namespace plica

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/elastic/nodal_rows.hpp>
-#include <plica/kernels/elastic/stress_memory.hpp>
+#include <plica/kernels/elastic/viscous_history.hpp>
 #include <plica/kernels/materials/isochoric.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 
@@ -10,7 +10,7 @@ namespace plica {
 /// Updates the memory at `slot` to the stress at F. S = F^-1 P of the law without a stiffness of
 /// the volume. It is finite for any F, as the law is, with 1/J continued as in volume_ratio.hpp.
 template <class B, class Material, class T>
-KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const Mat3<T>& F,
+KOKKOS_INLINE_FUNCTION void remember_stress(const ViscousHistory<B>& stress, const Mat3<T>& F,
                                             const typename Material::template Constants<T>& c,
                                             int slot) {
   const int count = 6 * (1 + stress.terms);
@@ -35,7 +35,7 @@ struct RememberElements {
   using Policy = Kokkos::TeamPolicy<typename B::Exec>;
   using T = typename PackOf<Real, B::lanes>::type;
   Patches<B> patches;
-  StressMemory<B> stress;
+  ViscousHistory<B> stress;
   Vectors<B> field[1];
   Scalars<B> constants;
 
@@ -62,7 +62,7 @@ struct RememberElements {
 };
 
 template <class B, class Material>
-void remember_elements(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+void remember_elements(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                        const Scalars<B>& constants) {
   using Kernel = RememberElements<B, Material>;
   const Patches<B>& patches = level.model.patches;
@@ -78,7 +78,7 @@ struct RememberDomains {
   using T = RowPack<B>;
   NodalRows<B> rows;
   NodalWork<B> work;
-  StressMemory<B> stress;
+  ViscousHistory<B> stress;
   Scalars<B> constants;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
@@ -93,7 +93,7 @@ struct RememberDomains {
 };
 
 template <class B, class Material>
-void remember_domains(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+void remember_domains(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                       const Scalars<B>& constants) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <plica/drivers/app/view/hands.hpp>
+#include <plica/drivers/app/view/user_forces.hpp>
 
 #include "unit/app/scene_text.hpp"
 
@@ -25,7 +25,7 @@ double least_ratio(const std::string& integration, const std::string& element, c
                    const Point& way) {
   const Scene scene = scene_of(pulled_block + integration, {"body.element=" + element});
   Simulation<HandBackend> simulation(scene.problem);
-  Hands<HandBackend> hands(scene, simulation, 0.1 * std::sqrt(3.0));
+  UserForces<HandBackend> hands(scene, simulation, 0.1 * std::sqrt(3.0));
   simulation.set_external_forces([&](const ForceRequest<HandBackend>& request) { hands(request); });
   Controls controls;
   controls.gravity = 9.81, controls.stiffness = 3000;  // 30 times what the page starts with
@@ -53,7 +53,7 @@ const std::string
     implicit_steps = "integration: {cycle: single, integrator: implicit_euler, macro_step: 2 ms}\n";
 
 // By hands that do not look they come to 0.2
-TEST(Hands, PullLessWhereElementsAreCrushed) {
+TEST(UserForces, PullLessWhereElementsAreCrushed) {
   for (const std::string& integration : {explicit_steps, him_steps, implicit_steps})
     for (const char* element : {"nodal", "linear"})
       EXPECT_GT(least_ratio(integration, element, {0.05, 0.05, 0.1}, {-0.2, -0.2, -0.2}), 0.3)
@@ -61,7 +61,7 @@ TEST(Hands, PullLessWhereElementsAreCrushed) {
 }
 
 // One Newton iteration a step turns elements inside out here: without giving way the run ends
-TEST(Hands, GiveWayWhereAStepFails) {
+TEST(UserForces, GiveWayWhereAStepFails) {
   for (const char* element : {"nodal", "linear"})
     for (const double x : {0.05, 0.1})
       for (const double z : {0.05, 0.1})

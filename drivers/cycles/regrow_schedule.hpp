@@ -7,7 +7,7 @@ namespace plica {
 /// The first try is 100 macro steps after a cut. After each try that failed or did not last the
 /// wait is twice as long. So a body that stays stiff is tried ever more rarely, and a body that is
 /// struck again and again keeps its short steps.
-class Regaining {
+class RegrowSchedule {
  public:
   /// Records that steps were cut.
   void cut() {

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/parsed_mesh.hpp>
 #include <vector>
 
 namespace plica {
@@ -21,7 +21,7 @@ enum class Flaws { refused, kept };
 /// are inside out. With Flaws::refused also: a tetrahedron that names a vertex twice, repeats
 /// another, overlaps another at a face, or has no volume (six times the volume is at most 1e-9 of
 /// the longest edge cubed)
-TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws = Flaws::refused);
+TetMesh validated_mesh(const ParsedMesh& raw, MeshReport& report, Flaws flaws = Flaws::refused);
 
 /// Checks the content of a file and makes its faces a surface; all readers use this function.
 /// Other elements are left out. Surfaces that are open or no manifold are accepted and reported:
@@ -32,7 +32,8 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws = Flaws::
 /// twice; more than one invalid face in a hundred. A face is invalid if it names a vertex that is
 /// not defined, if it cannot be cut into triangles, or if a triangle has no area (twice the area is
 /// at most 1e-12 of the longest edge squared)
-TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report);
+TriangleSurface validated_surface(const ParsedMesh& raw, const MeshReport& found,
+                                  SurfaceReport& report);
 
 /// Mesh whose duplicate vertices were merged.
 struct MergedMesh {

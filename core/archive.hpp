@@ -13,11 +13,11 @@ namespace plica {
 /// numbers and fields once. The archive saves them, checks that saved bytes fit them, or restores
 /// them.
 template <class B>
-class StateArchive {
+class Archive {
  public:
   enum class Task { save, check, restore };
 
-  StateArchive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(bytes) {}
+  Archive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(bytes) {}
 
   template <class Number>
   void number(Number& value) {

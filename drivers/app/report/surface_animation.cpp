@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <plica/core/error.hpp>
-#include <plica/drivers/app/report/film.hpp>
+#include <plica/drivers/app/report/surface_animation.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
@@ -97,7 +97,7 @@ std::string label_of(const std::string& name, bool is_length) {
 
 }  // namespace
 
-Film::Film(int level, const FrameFile& first) : level_(level) {
+SurfaceAnimation::SurfaceAnimation(int level, const FrameFile& first) : level_(level) {
   points_ = first.points.size(), cells_ = first.triangles.size() + first.tets.size();
   if (points_ == 0 || cells_ == 0) throw InputError("there is no surface in it");
   take_boundary(first);
@@ -111,7 +111,7 @@ Film::Film(int level, const FrameFile& first) : level_(level) {
     if (!left_out(array.name)) fields_[array.name] = {array.of_cells, array.components > 1, {}};
 }
 
-void Film::take_boundary(const FrameFile& first) {
+void SurfaceAnimation::take_boundary(const FrameFile& first) {
   if (first.tets.empty()) {
     triangles_ = first.triangles;
     vertices_.resize(points_), owners_.resize(cells_);
@@ -137,7 +137,7 @@ void Film::take_boundary(const FrameFile& first) {
   }
 }
 
-std::vector<float> Film::values_of(const FrameArray& array) const {
+std::vector<float> SurfaceAnimation::values_of(const FrameArray& array) const {
   const auto components = static_cast<std::size_t>(array.components);
   std::vector<float> values;
   for (const int i : array.of_cells ? owners_ : vertices_) {
@@ -148,7 +148,7 @@ std::vector<float> Film::values_of(const FrameArray& array) const {
   return values;
 }
 
-void Film::check(const FrameFile& frame) const {
+void SurfaceAnimation::check(const FrameFile& frame) const {
   if (frame.points.size() != points_ || frame.triangles.size() + frame.tets.size() != cells_)
     throw InputError("it has another mesh than the first frame");
   for (const auto& [name, field] : fields_)
@@ -157,11 +157,11 @@ void Film::check(const FrameFile& frame) const {
       throw InputError("it has no array '" + name + "', as the first frame has");
 }
 
-bool Film::same_surface(const Film& other) const {
+bool SurfaceAnimation::same_surface(const SurfaceAnimation& other) const {
   return triangles_ == other.triangles_ && rest_ == other.rest_;
 }
 
-void Film::add(const FrameFile& frame) {
+void SurfaceAnimation::add(const FrameFile& frame) {
   std::vector<Point> now;
   std::vector<float> motion;
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
@@ -174,7 +174,7 @@ void Film::add(const FrameFile& frame) {
 }
 
 // Returns true if some vertex never moves
-bool Film::held() const {
+bool SurfaceAnimation::held() const {
   Point low = rest_.front(), high = rest_.front();
   for (const Point& p : rest_) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double still = 1e-6 * (high - low).maxCoeff();
@@ -186,7 +186,7 @@ bool Film::held() const {
   return false;
 }
 
-Json Film::json() const {
+Json SurfaceAnimation::json() const {
   std::vector<float> rest;
   for (const Point& p : rest_) rest.insert(rest.end(), {float(p.x()), float(p.y()), float(p.z())});
   std::vector<std::uint32_t> corners;

@@ -10,9 +10,9 @@ namespace plica {
 /// Wall time per stage and level, on request. It waits for the device at a stage's ends only when
 /// it is on.
 template <class B>
-class StageClock {
+class StageTimer {
  public:
-  explicit StageClock(const typename B::Exec& exec) : exec_(exec) {}
+  explicit StageTimer(const typename B::Exec& exec) : exec_(exec) {}
   bool on = false;
   const typename B::Exec& exec() const { return exec_; }
   void set_exec(const typename B::Exec& exec) { exec_ = exec; }

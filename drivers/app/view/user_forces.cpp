@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/drivers/app/output/run_files.hpp>
-#include <plica/drivers/app/view/hands.hpp>
+#include <plica/drivers/app/view/user_forces.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 
 namespace plica::app {
@@ -38,7 +38,7 @@ void add(const Vectors<B>& forces, std::size_t i, const Point& force) {
 }  // namespace
 
 template <class B>
-Hands<B>::Hands(const Scene& scene, const Simulation<B>& simulation, double size)
+UserForces<B>::UserForces(const Scene& scene, const Simulation<B>& simulation, double size)
     : scene_gravity_(scene.problem.gravity),
       size_(size),
       young_(stiffness_at_rest(scene.problem.body.material)),
@@ -60,13 +60,13 @@ Hands<B>::Hands(const Scene& scene, const Simulation<B>& simulation, double size
 }
 
 template <class B>
-void Hands<B>::Follower::aim(const Point& goal, double reach, double step) {
+void UserForces<B>::Follower::aim(const Point& goal, double reach, double step) {
   const Point way = goal - place;
   velocity = way * std::min(1.0, reach / std::max(way.norm(), 1e-300)) / step;
 }
 
 template <class B>
-void Hands<B>::hold(const Controls& controls, double time) {
+void UserForces<B>::hold(const Controls& controls, double time) {
   const bool anew = controls.pull && (!controls_.pull || controls.pull->at != controls_.pull->at);
   if (anew) ++grips_, placed_ = false;
   if (controls.tool && !controls_.tool) ball_.place = controls.tool->centre;
@@ -82,13 +82,13 @@ void Hands<B>::hold(const Controls& controls, double time) {
 }
 
 template <class B>
-bool Hands<B>::give_way() {
+bool UserForces<B>::give_way() {
   grip_ *= 0.5;
   return controls_.pull && grip_ > least_grip;
 }
 
 template <class B>
-void Hands<B>::advance() {
+void UserForces<B>::advance() {
   grip_ = std::min(1.0, grip_ * regained);
   for (Follower* one : {&hand_, &ball_})
     one->place += macro_step_ * one->velocity, one->velocity.setZero();
@@ -97,7 +97,7 @@ void Hands<B>::advance() {
 
 // Uses the volumes of level 0's tetrahedra; for nodal elements, the sum of those around a vertex
 template <class B>
-double Hands<B>::bearing(const ForceRequest<B>& request) const {
+double UserForces<B>::bearing(const ForceRequest<B>& request) const {
   std::vector<double> rest(nodal_ ? mesh_.vertices.size() : 0), now(rest);
   double least = 1;
   for (const auto& tet : mesh_.tets) {
@@ -120,12 +120,12 @@ double Hands<B>::bearing(const ForceRequest<B>& request) const {
 }
 
 template <class B>
-double Hands<B>::since_start(const ForceRequest<B>& request) const {
+double UserForces<B>::since_start(const ForceRequest<B>& request) const {
   return std::clamp(request.time + request.ahead - start_, 0.0, macro_step_);
 }
 
 template <class B>
-void Hands<B>::operator()(const ForceRequest<B>& request) {
+void UserForces<B>::operator()(const ForceRequest<B>& request) {
   if constexpr (B::on_host) {
     if (static_cast<std::size_t>(request.level) >= levels_.size()) return;
     request.exec.fence("plica::hands");
@@ -141,7 +141,7 @@ void Hands<B>::operator()(const ForceRequest<B>& request) {
 }
 
 template <class B>
-void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
+void UserForces<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
   level.grip = grips_;
   level.held.clear(), level.weight.clear(), level.offset.clear();
   const double radius = std::max(patch * size_, 1.2 * level.edge);
@@ -164,8 +164,8 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
 // adds inertia to motion that is finer than its step resolves. For a patch this has the effect of a
 // shorter step h.
 template <class B>
-double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request,
-                                std::size_t vertex, double radius) const {
+double UserForces<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request,
+                                     std::size_t vertex, double radius) const {
   if (request.stiffness.extent(0) > 0) return HUGE_VAL;  // implicit
   double step = level.step;
   if (level.critical > 0)
@@ -176,7 +176,7 @@ double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& 
 // Pulls every vertex of the patch to its place in the patch at the time of the grasp, like forceps.
 // A thread would pull all vertices to one point.
 template <class B>
-void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
+void UserForces<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
   using Real = typename B::Real;
   if (level.grip != grips_) take_hold(level, request);
   const Point target = hand_.place + since_start(request) * hand_.velocity;
@@ -203,7 +203,7 @@ void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
 }
 
 template <class B>
-void Hands<B>::add_push(const LevelParts& level, const ForceRequest<B>& request) {
+void UserForces<B>::add_push(const LevelParts& level, const ForceRequest<B>& request) {
   using Real = typename B::Real;
   const Point centre = ball_.place + since_start(request) * ball_.velocity;
   const double radius = controls_.tool->radius;
@@ -230,7 +230,7 @@ void Hands<B>::add_push(const LevelParts& level, const ForceRequest<B>& request)
   if (request.level == 0) push_ = sum;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) template class Hands<Backend<Real, Exec>>;
+#define PLICA_INSTANTIATE(Real, Exec) template class UserForces<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica::app
