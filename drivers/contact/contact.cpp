@@ -87,7 +87,7 @@ void Contact<B>::make_memory(const ContactOptions& options) {
   const bool tools = std::ranges::any_of(all, [](const auto& o) { return o.mass.has_value(); });
   const bool tear = std::ranges::any_of(options.attachments,
                                         [](const auto& a) { return a.strength.has_value(); });
-  if (tools) grasps_.first = ObstaclePose<B>::numbers * static_cast<int>(all.size());
+  if (tools) grasps_.first = ObstacleMotion<B>::numbers * static_cast<int>(all.size());
   if (std::ranges::any_of(all, [](const auto& o) { return o.grasp.has_value(); }))
     grasps_.places = static_cast<int>(all.size()) * points_;
   attached_.first = grasps_.at(grasps_.places);
@@ -95,7 +95,7 @@ void Contact<B>::make_memory(const ContactOptions& options) {
   for (std::size_t o = 0; tools && o < all.size(); ++o) {
     const Point turned = all[o].turn ? all[o].turn->rotation : Point(Point::Zero());
     const double half = turned.norm() / 2;
-    double* const attitude = &start[o * ObstaclePose<B>::numbers + ObstaclePose<B>::attitude];
+    double* const attitude = &start[o * ObstacleMotion<B>::numbers + ObstacleMotion<B>::attitude];
     attitude[0] = std::cos(half);
     for (int k = 0; k < 3; ++k)
       attitude[1 + k] = half > 0 ? std::sin(half) / (2 * half) * turned[k] : 0;

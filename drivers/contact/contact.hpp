@@ -26,7 +26,7 @@ class Obstacle {
   virtual void grasp(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time,
                      int number, double reach, const ContactRecords<B>&) const = 0;
   /// Returns the obstacle's pose at `time` [s], with the mean velocity of the next `ahead` [s].
-  virtual ObstaclePose<B> place(double time, double ahead) const = 0;
+  virtual ObstacleMotion<B> place(double time, double ahead) const = 0;
   /// Replaces the motion, and set_turn() the turn, for all later calls.
   virtual void set_motion(const Motion& motion) = 0;
   virtual void set_turn(const std::optional<Turn>& turn) = 0;
@@ -104,7 +104,7 @@ class Contact {
   int attached() const { return attached_count_; }  ///< points that are attached to another body
   const Attachments<B>& attached_points() const { return attached_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
-  ObstaclePose<B> place(int obstacle, double time, double ahead = 0) const {
+  ObstacleMotion<B> place(int obstacle, double time, double ahead = 0) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time, ahead);
   }
   /// Replaces the motion of an obstacle; work that is enqueued already keeps the earlier motion.

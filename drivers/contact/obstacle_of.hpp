@@ -50,7 +50,7 @@ class ObstacleOf final : public Obstacle<B> {
         path_(make_path(options.motion, knots_)),
         watch_(watch),
         tools_(options.mass ? memory : Doubles<B>()),
-        first_(ObstaclePose<B>::numbers * number),
+        first_(ObstacleMotion<B>::numbers * number),
         longest_(static_cast<Real>(longest)) {
     options_.shape.reset();
     set_turn(options.turn);
@@ -59,7 +59,7 @@ class ObstacleOf final : public Obstacle<B> {
 
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
             int number, bool faces, const ContactRecords<B>& records) const override {
-    const ObstaclePose<B> at = place(time, static_cast<double>(records.span));
+    const ObstacleMotion<B> at = place(time, static_cast<double>(records.span));
     const Real reach = face_reach * records.reach;
     fill(exec, records.close, 0);
     // A triangle touches nothing if all of its corners are further away than `between` [m]. This
@@ -79,7 +79,7 @@ class ObstacleOf final : public Obstacle<B> {
                        Grasp<B, Shape>{surface, s.u, shape_, place(time, 0), records, number,
                                        static_cast<Real>(reach)});
   }
-  ObstaclePose<B> place(double time, double ahead) const override {
+  ObstacleMotion<B> place(double time, double ahead) const override {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
     return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)},
             tools_, first_, !options_.inertia.empty()};
@@ -94,7 +94,7 @@ class ObstacleOf final : public Obstacle<B> {
   void move(const Exec& exec, const Doubles<B>& wrench, int number, double end,
             double span) const override {
     if (!options_.mass) return;
-    const ObstaclePose<B> now = place(end, 0), next = place(end + span, 0);
+    const ObstacleMotion<B> now = place(end, 0), next = place(end + span, 0);
     update_vertices<B>(exec, "plica::contact_tool", 1,
                        MoveTool<B>{now, next.pose, wrench, 6 * number, span, tool_});
   }

@@ -60,7 +60,7 @@ void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
   expect_finite_move("displacement", displacement), expect_finite_move("rotation", rotation);
-  const ObstaclePose<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
+  const ObstacleMotion<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
   const Vec3<double>& about = place.pose->turn.turned ? place.pose->turn.centre : place.origin;
   const Point before = obstacle_rotation(obstacle);
   const Point way = rotation_vector(rotation_by(rotation) * rotation_by(-before));
@@ -83,7 +83,7 @@ Point Simulation<B>::obstacle_rotation(int obstacle) const {
 }
 template <class B>
 Point Simulation<B>::obstacle_origin(int obstacle) const {
-  const ObstaclePose<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
+  const ObstacleMotion<B> place = impl_->contact_with(obstacle).place(obstacle, impl_->time);
   const Vec3<double> at = place.pose->placed(place.origin);
   return {at[0], at[1], at[2]};
 }

@@ -74,7 +74,7 @@ std::vector<ToolState> Simulation<B>::tools() const {
   std::vector<ToolState> tools;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (!obstacles[o].mass) continue;
-    using Place = ObstaclePose<B>;
+    using Place = ObstacleMotion<B>;
     const double* const own = all.data() + o * Place::numbers;
     ToolState tool{obstacle_name(impl_->problem.contact, o), Point(own), Point(own + 3),
                    !obstacles[o].inertia.empty()};

@@ -17,7 +17,7 @@ template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
   Shape shape;
-  ObstaclePose<B> place;
+  ObstacleMotion<B> place;
   int obstacle;
   Real reach;    ///< distance outside beyond which a triangle is not looked at [m]
   Real between;  ///< distance outside of all corners beyond which a triangle is not looked at [m]

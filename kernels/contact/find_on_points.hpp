@@ -17,7 +17,7 @@ struct FindOnPoints {
   EmbeddedSurface<B> surface;
   Vectors<B> v;
   Shape shape;
-  ObstaclePose<B> place;
+  ObstacleMotion<B> place;
   DepthWatch<B> watch;
   int obstacle;
   Real between;  ///< distance outside of all corners beyond which a triangle touches nothing [m]
@@ -85,7 +85,7 @@ struct Grasp {
   EmbeddedSurface<B> surface;
   Vectors<B> u;
   Shape shape;
-  ObstaclePose<B> place;
+  ObstacleMotion<B> place;
   ContactRecords<B> records;
   int obstacle;
   Real reach;

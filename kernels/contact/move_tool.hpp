@@ -20,7 +20,7 @@ struct RigidTool {
 /// vector d leads to the attitude that its turn asks for. A tool that turns freely keeps L.
 template <class B>
 struct MoveTool {
-  ObstaclePose<B> place;            ///< pose at the end of the step
+  ObstacleMotion<B> place;          ///< pose at the end of the step
   Changing<B, ObstaclePose> asked;  ///< pose asked for at the end of the next step
   Doubles<B> wrench;                ///< force and torque on the body
   int force;                        ///< number of the tool's first component in wrench
@@ -41,12 +41,13 @@ struct MoveTool {
                            (1 + T / tool.mass * (tool.damping + T * tool.stiffness));
       place.tools(x + k) = is.displacement[k];
     }
-    place.tools(x + ObstaclePose<B>::at_time) = is.time;
+    place.tools(x + ObstacleMotion<B>::at_time) = is.time;
   }
 
   KOKKOS_INLINE_FUNCTION void turn(const ObstaclePose& is, const ObstaclePose& goal) const {
     const double T = span, k = tool.angular_stiffness, c = tool.angular_damping;
-    const int q = place.first + ObstaclePose<B>::attitude, w = place.first + ObstaclePose<B>::rate;
+    const int q = place.first + ObstacleMotion<B>::attitude,
+              w = place.first + ObstacleMotion<B>::rate;
     const Mat3<double> before = place.last_attitude().rotation(), now = is.turn.rotation;
     const auto turned = [&](const Mat3<double>& R) { return R * (tool.inertia * transpose(R)); };
     const Mat3<double> asked_rotation =
@@ -64,7 +65,7 @@ struct MoveTool {
     for (int i = 0; i < 3; ++i) place.tools(w + i) = rate[i];
   }
   KOKKOS_INLINE_FUNCTION double last_time() const {
-    return place.tools(place.first + ObstaclePose<B>::at_time);
+    return place.tools(place.first + ObstacleMotion<B>::at_time);
   }
 };
 

@@ -110,7 +110,7 @@ KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, cons
 /// Source of an obstacle's pose at a time. It is given by motion and turn, or, for a tool with
 /// mass, by numbers that the device computes.
 template <class B>
-struct ObstaclePose {
+struct ObstacleMotion {
   /// Numbers of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x,
   /// y, z) and angular velocity [rad/s].
   static constexpr int numbers = 14, at_time = 6, attitude = 7, rate = 11;

@@ -27,7 +27,7 @@ struct ObstacleWrench {
   Vectors<B> u;
   ContactRecords<B> records;
   int obstacle;
-  ObstaclePose<B> at;
+  ObstacleMotion<B> at;
   KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
     const int r = records.list.item(i);
     if (records.row(r) != obstacle) return {};

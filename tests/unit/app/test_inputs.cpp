@@ -157,24 +157,25 @@ struct Wrong {
 TEST(Inputs, ErrorsHaveTheirPlace) {
   const Wrong all[] = {
       {"  material:", "  prescribed: [{nearest: [0, 0, 0]}]\n  material:",
-       "a.yaml:7: body.prescribed.0: expected one of velocity, path, sine, got a map (nearest)"},
+       "a.yaml:7: body.prescribed.0: expected one of velocity, curve, sine, got a map (nearest)"},
       {"  material:", "  prescribed: [{velocity: [0, 0, 0]}]\n  material:",
-       "a.yaml:7: body.prescribed.0: expected one of box, sphere, plane, group, region, nearest, "
+       "a.yaml:7: body.prescribed.0: expected one of box, sphere, half_space, group, region, "
+       "nearest, "
        "got a map (velocity)"},
       {"  material:",
        "  prescribed: [{nearest: [0, 0, 0], velocity: [0, 0, 0], sine: {amplitude: [0, 0, 0], "
        "frequency: 1}}]\n  "
        "material:",
-       "a.yaml:7: body.prescribed.0: expected only one of velocity, path, sine, got a map "
+       "a.yaml:7: body.prescribed.0: expected only one of velocity, curve, sine, got a map "
        "(nearest, velocity, sine)"},
-      {"  material:", "  prescribed: [{nearest: [0, 0, 0], pth: []}]\n  material:",
-       "a.yaml:7: body.prescribed.0: unknown key 'pth'; did you mean 'path'?"},
+      {"  material:", "  prescribed: [{nearest: [0, 0, 0], curv: []}]\n  material:",
+       "a.yaml:7: body.prescribed.0: unknown key 'curv'; did you mean 'curve'?"},
       {"  material:", "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3 Pa]}]\n  material:",
        "a.yaml:7: body.loads.0.force.2: expected a force (N), got '3 Pa', a pressure"},
       {"  material:",
        "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3], ramp: 1, sine: {frequency: 1}}]\n  "
        "material:",
-       "a.yaml:7: body.loads.0: expected only one of ramp, course, sine, got a map (nearest, "
+       "a.yaml:7: body.loads.0: expected only one of ramp, curve, sine, got a map (nearest, "
        "force, ramp, sine)"},
       {"  material:", "  loads: [{region: tip, force: [0, 0, 3]}]\n  material:",
        "a.yaml:7: body.loads.0.region: there is no region 'tip': the meshes name none"},

@@ -206,7 +206,7 @@ TEST(Attachments, RefuseWhatTheyCannotHold) {
   has(said([](Problem&, AttachmentOptions& o) { o.to = "lower"; }), "expected another one");
   has(said([](Problem&, AttachmentOptions& o) { o.reach = 1e-5; }), "the nearest is 0.0001 m away");
   has(said([](Problem&, AttachmentOptions& o) { o.where = GroupSelection{"top"}; }),
-      "expected box, sphere, plane");
+      "expected box, sphere, half_space");
   has(said([](Problem&, AttachmentOptions& o) {
         o.where = Box{{5, 5, 5}, {6, 6, 6}};
       }),

@@ -352,7 +352,7 @@ TEST(TurningTools, AreRefusedWhereTheyCannotBe) {
               s.set_obstacle_turn(0, Turn{.axis = {0, 0, 0}});
             }).find("turn.axis"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { s.set_obstacle_motion(0, PathMotion{}); }).find("motion.path"),
+  EXPECT_NE(refusal([&] { s.set_obstacle_motion(0, PathMotion{}); }).find("motion.curve"),
             std::string::npos);
   EXPECT_NE(refusal([&] {
               s.set_obstacle_motion(0, SteadyMotion{Point(NAN, 0, 0)});

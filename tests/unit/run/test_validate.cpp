@@ -165,14 +165,14 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
     return refusal_of(p);
   };
   EXPECT_EQ(motion(PathMotion{{{0, {0, 0, 0}}, {1, {0, 0, 1}}}}), "");
-  EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.path is empty; expected at least one time");
+  EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.curve is empty; expected at least one time");
   EXPECT_EQ(motion(PathMotion{{{0.5, {0, 0, 0}}, {0.5, {0, 0, 1}}}}),
-            "body.prescribed.0.path.1.time is 0.5 s; expected a time after that of the entry "
+            "body.prescribed.0.curve.1.time is 0.5 s; expected a time after that of the entry "
             "before, 0.5 s");
   EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}),
-            "body.prescribed.0.path.0.time is -1 s; expected a time (s) >= 0");
-  EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 41),
-            "body.prescribed.0.path.0.displacement is ");
+            "body.prescribed.0.curve.0.time is -1 s; expected a time (s) >= 0");
+  EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 42),
+            "body.prescribed.0.curve.0.displacement is ");
   EXPECT_EQ(motion(SineMotion{{1, 0, 0}, 0, 0}),
             "body.prescribed.0.sine.frequency is 0 1/s; expected a rate (1/s) > 0");
   const auto load = [&](const LoadOptions& o) {
