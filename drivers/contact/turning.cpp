@@ -127,7 +127,7 @@ Attitude Turning::at(double time, double ahead) const {
   Attitude turn{true, centre_, rotation_by({angle[0], angle[1], angle[2]}) * before_, now.velocity};
   if (const double by = ahead * std::sqrt(dot(now.velocity, now.velocity)); by > 0) {
     const double half = std::sin(by / 2) / by;  // 1 - cos(by) = 2 sin^2(by / 2)
-    turn.along = std::sin(by) / by, turn.to_local = 2 * half * half * ahead;
+    turn.along = std::sin(by) / by, turn.inward = 2 * half * half * ahead;
   }
   return turn;
 }

@@ -275,7 +275,7 @@ struct ContactRecords {
   /// Returns the distance of a point that is near nothing [m].
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }
 
-  /// Returns W of a field; `bounding`: by absolute weights.
+  /// Returns W of a field; `absolute_weights`: by absolute weights.
   KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x,
                                           int r, bool absolute_weights = false) const {
     Vec3<Real> sum;

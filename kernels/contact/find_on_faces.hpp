@@ -68,7 +68,7 @@ struct FindOnFaces {
     Vec3<Real> at;
     for (int c = 0; c < 3; ++c) at += w[c] * vector_at<B>(records.places, p[c]);
     records.use(r, records.obstacle_law(obstacle, p[0]),
-                pose.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
+                pose.to_world(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
                 records.span * pose.velocity(at), records.span * pose.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0)

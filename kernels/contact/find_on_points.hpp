@@ -48,14 +48,14 @@ struct FindOnPoints {
     const Real far = records.reach + records.span * Kokkos::sqrt(dot(speed, speed));
     Gap<Real> gap = records.long_steps
                         ? shape(local)
-                        : gap_along(shape, local, at.inward(records.span * speed), records.reach);
+                        : gap_along(shape, local, at.to_local(records.span * speed), records.reach);
     watch.look(p, gap.distance);
     if (gap.distance < between) records.close(0) = 1;
     if (!(gap.distance < far)) {
       records.depth(r) = -gap.distance;
       return records.leave(r);
     }
-    const Vec3<Real> local_normal = gap.normal, N = at.outward(gap.normal);
+    const Vec3<Real> local_normal = gap.normal, N = at.to_world(gap.normal);
     records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
     records.use(r, records.obstacle_law(obstacle, p), N, -gap.distance, records.span * its,
                 records.span * at.template rate<Real>());
@@ -72,7 +72,7 @@ struct FindOnPoints {
                                    const Vec3<Real>& its) const {
     records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
     records.tie(r, records.held_law(obstacle, p),
-                at.outward(records.grasps.stretch(r, x, at.way(x))), records.span * its);
+                at.to_world(records.grasps.stretch(r, x, at.way(x))), records.span * its);
     if (records.concavity.extent(0) > 0) set_block<B>(records.concavity, r, {});
   }
 };

@@ -15,7 +15,7 @@ struct Attitude {
   /// Factors of the mean velocity of a step of h, over which a place goes the chord: sin(w h)/(w h)
   /// along w x r, and (1 - cos(w h))/(w h)^2 h inward.
   /// @{
-  double along = 1, to_local = 0;
+  double along = 1, inward = 0;
   /// @}
 };
 
@@ -62,7 +62,7 @@ struct ObstaclePose {
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (!turn.turned) return rounded<Real>(speed);
     const Vec3<double> round = cross(turn.rate, exact(x) - turn.centre - displacement);
-    return rounded<Real>(speed + turn.along * round + turn.to_local * cross(turn.rate, round));
+    return rounded<Real>(speed + turn.along * round + turn.inward * cross(turn.rate, round));
   }
 
  private:

@@ -110,7 +110,7 @@ std::vector<FilmEntry> read_collection(const std::filesystem::path& pvd) {
     double time = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
     if (error != std::errc() || end != text.data() + text.size())
-      refuse(file.name, element.place, "timestep is " + to_text(text) + "; it must be a number");
+      refuse(file.name, element.place, "timestep is " + shown(text) + "; it must be a number");
     entries.push_back({time, pvd.parent_path() / attribute(element, "file", file)});
   }
   return entries;
@@ -131,7 +131,7 @@ double number_of(const std::string& text, const FileBytes& file, std::int64_t li
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    refuse(file.name, {line}, "expected a number, found " + to_text(text));
+    refuse(file.name, {line}, "expected a number, found " + shown(text));
   return value;
 }
 

@@ -50,8 +50,8 @@ void check_folder(const std::filesystem::path& folder) {
     throw InputError(folder.string() + " is a file; expected the folder of a run or a study");
   if (holds_run(folder) || holds_study(folder)) return;
   std::vector<std::string> inside = reportable_in(folder);
-  constexpr std::size_t to_text = 10;
-  if (inside.size() > to_text) inside.resize(to_text), inside.emplace_back("...");
+  constexpr std::size_t listed = 10;
+  if (inside.size() > listed) inside.resize(listed), inside.emplace_back("...");
   throw InputError(
       folder.string() +
       " holds no run and no study; expected frames.pvd, summary.json or history.csv of `plica "

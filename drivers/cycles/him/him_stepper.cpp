@@ -132,16 +132,17 @@ void HimStepper<B>::touch(Level<B>& level, double time, double t) const {
   const ContactRecords<B>& records = level.response().records();
   const Doubles<B>& touching = records.touching;
   const Vectors<B>&force = fields_.contact.force, &acceleration = fields_.contact_answer;
-  ScatterContact<B> scatter{.surface = level.surface,
-                            .records = records,
-                            .f = force,
-                            .model = level.model,
-                            .damped = static_cast<Real>(t / 2),
-                            .bounding = Bounding::obstacles};  // first call: unit forces
+  ScatterContact<B> scatter{
+      .surface = level.surface,
+      .records = records,
+      .f = force,
+      .model = level.model,
+      .damped = static_cast<Real>(t / 2),
+      .absolute_weights = AbsoluteWeights::obstacles};  // first call: unit forces
   const auto respond = [&] {
     where_touching<B>(exec, touching, "plica::contact_zero", n_, ZeroVectors<B>{force});
     over_list<B>(exec, records.transpose.vertices, "plica::contact_scatter", scatter, touching);
-    scatter.bounding = Bounding::none;
+    scatter.absolute_weights = AbsoluteWeights::none;
     answer(exec, force, acceleration, touching);
   };
   answer(exec, force, acceleration, touching);

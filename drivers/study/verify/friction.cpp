@@ -92,9 +92,9 @@ namespace jaws {
 
 constexpr double side = 0.05, lift = 0.1, squeeze = 3e-3;
 
-ObstacleOptions jaw(double to_local, double at) {
+ObstacleOptions jaw(double inward, double at) {
   ObstacleOptions o{BlockOptions{{at, side / 2, side / 2}, {0.02, 0.08, 0.08}}, 0.6, {}};
-  const Point closed(to_local * squeeze, 0, 0);
+  const Point closed(inward * squeeze, 0, 0);
   o.motion = PathMotion{
       {{0.05, {0, 0, 0}}, {0.2, closed}, {0.25, closed}, {0.75, closed + Point(0, 0, lift)}}};
   return o;

@@ -59,8 +59,8 @@ TEST_F(ReportCommand, ShowsWhereTheBodyWas) {
   for (std::size_t frame = 0; frame < 5; ++frame) {
     // symplectic Euler
     const double n = 5.0 * static_cast<double>(frame), fallen = -9.81 * 1e-6 * n * (n + 1) / 2;
-    const double to_text = low + (high - low) * steps[frame * rest.size() + 2] / 65535.0;
-    EXPECT_NEAR(to_text, fallen, 2e-5 * (high - low)) << frame;
+    const double found = low + (high - low) * steps[frame * rest.size() + 2] / 65535.0;
+    EXPECT_NEAR(found, fallen, 2e-5 * (high - low)) << frame;
     EXPECT_NEAR(page["times"][frame], 1e-3 * n, 1e-12);
   }
   EXPECT_EQ(page["history"]["kinetic_energy"].size(), 5);

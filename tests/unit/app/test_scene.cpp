@@ -174,10 +174,10 @@ TEST(Readme, ShowsAShippedScene) {
   const std::string readme = content_of(PLICA_SOURCE_DIR "/README.md"), start = "```yaml\n";
   const std::size_t from = readme.find(start);
   if (from == std::string::npos) GTEST_SKIP() << "README.md shows no scene";
-  const std::string to_text = readme.substr(
+  const std::string in_readme = readme.substr(
       from + start.size(), readme.find("```", from + start.size()) - from - start.size());
   const std::string shipped = content_of(PLICA_SOURCE_DIR "/drivers/scenes/press.yaml");
-  EXPECT_EQ(to_text, shipped.substr(shipped.find("name: ")));
+  EXPECT_EQ(in_readme, shipped.substr(shipped.find("name: ")));
 }
 
 TEST(StudyScenes, AreSoundOnAllTheirLevels) {
