@@ -54,7 +54,7 @@ struct OgdenTerm {
 
 /// Material of a body.
 struct MaterialOptions {
-  std::string model = "st_venant_kirchhoff";  ///< one of materials()
+  std::string model = "neo_hookean";  ///< one of materials()
   double young_modulus = 20e3;                ///< [Pa]
   double poisson_ratio = 0.4;                 ///< lateral contraction
   double density = 1000;                      ///< [kg/m^3]

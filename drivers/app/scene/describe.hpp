@@ -170,7 +170,8 @@ void describe(V& v, BodyKeys& o) {
     "faces stay");
   describe(v, o.body);
   v("surface", o.surface, Group{},
-    "embedded in every level: it touches the obstacles, and frames show it");
+    "embedded in every level: it touches the obstacles, and frames show it; left out: the boundary "
+    "where there are obstacles, else none");
 }
 
 inline constexpr const char* body_integration_help =

@@ -81,6 +81,8 @@ Scene read_scene(const Tree& tree) {
     ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
     if (recipe.tool) made.shape = recipe.tool->options;
   }
+  if (!scene.obstacles.empty() && !scene.surface && !scene.lattices && scene.bodies.empty())
+    scene.surface = SurfaceRecipe{.boundary = true};
   scene.source = tree;
   return scene;
 }
@@ -224,10 +226,6 @@ void check_scene(const Scene& scene, const Tree& tree) {
     check_body(scene, tree);
     check_memory(scene, tree);
     with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
-    if (!scene.obstacles.empty() && !scene.surface && !scene.lattices)
-      throw InputError(
-          "contact.obstacles: the body has no surface to touch them; give body.surface",
-          place_of(tree, "contact.obstacles"));
   }
   check_duration(scene, tree);
   check_output(scene, tree);

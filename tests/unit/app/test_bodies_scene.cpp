@@ -18,7 +18,7 @@ duration: 0.1
 bodies:
   left:
     levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}, {box: {size: [1, 1, 1], cells: [1, 1, 1]}}]
-    material: {young_modulus: 30 kPa}
+    material: {model: st_venant_kirchhoff, young_modulus: 30 kPa}
     fixed: [{half_space: {normal: [0, 0, 1]}}]
     surface: {boundary: true}
   right:

@@ -244,6 +244,14 @@ TEST(Scene, EmptyIsAnError) {
   EXPECT_EQ(error_of("- a list\n").substr(0, 10), "a.yaml:1: ");
 }
 
+TEST(Scene, TouchesObstaclesByItsBoundary) {
+  const std::string surface = "  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n";
+  const Body body = scene_of(damaged(surface, "")).problem.body;
+  ASSERT_TRUE(body.surface);
+  EXPECT_EQ(body.surface->triangles.size(), 6u * 2 * 4 * 4);
+  EXPECT_FALSE(scene_of(damaged(surface, ""), {"contact.obstacles=[]"}).problem.body.surface);
+}
+
 TEST(Scene, MayTouchNothing) {
   const std::string obstacle = "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}";
   EXPECT_TRUE(scene_of(damaged(obstacle, "[]")).problem.contact.obstacles.empty());

@@ -164,8 +164,6 @@ const Damage damages[] = {
      "list of 1"},
     {"SharesSum", "macro_step: 1 ms", "distribution: [0.5, 0.6]",
      "a.yaml:11: integration.distribution: the shares must add up to 1, got 1.1"},
-    {"ContactWithoutSurface", "  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", "",
-     "a.yaml:12: contact.obstacles: the body has no surface to touch them; give body.surface"},
     {"RimAboveRadius", "plane: {point: [0, 0, -0.1]}", "bowl: {radius: 1, rim: 2}",
      "a.yaml:14: contact.obstacles.0.bowl.rim is 2 m; expected at most the radius, 1 m"},
     {"NoNormal", "point: [0, 0, -0.1]", "normal: [0, 0, 0]",

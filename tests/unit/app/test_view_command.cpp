@@ -12,7 +12,7 @@ constexpr const char* soft_block = R"(duration: 1 s
 gravity: [0, 0, -9.81]
 body:
   levels: [{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}]
-  material: {young_modulus: 20 kPa, poisson_ratio: 0.3, density: 1000}
+  material: {model: st_venant_kirchhoff, young_modulus: 20 kPa, poisson_ratio: 0.3, density: 1000}
   fixed: [{half_space: {normal: [0, 0, 1]}}]
   damping: {mass: 8}
   surface: {boundary: true}
