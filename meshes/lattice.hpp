@@ -12,6 +12,7 @@ void check_cell_size(const std::vector<Point>& points, double size);
 /// reaches into, cut into six tetrahedra. Unconnected parts of the body in one cube become
 /// connected.
 /// @param surface  closed, counter-clockwise seen from outside
+/// @param size     length of the cubes' edges [m]
 /// @throw InputError for a size that is not above zero, larger than the body, or so small that the
 /// bounding box holds more than 8 million cubes
 TetMesh lattice_mesh(const TriangleSurface& surface, double size);
@@ -32,6 +33,7 @@ WeightedLattice weighted_lattice(const TriangleSurface& surface, double size);
 /// Returns the lattice over a mesh with the most vertices that are not above a given number. A cube
 /// gets the region that its centre is in or nearest to; vertex sets are left out. The cube size is
 /// found by 16 steps of bisection.
+/// @param mesh      mesh of the body
 /// @param vertices  30 to as many as the mesh has; InputError for any other number
 TetMesh coarse_lattice(const TetMesh& mesh, int vertices);
 

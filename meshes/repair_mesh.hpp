@@ -19,6 +19,7 @@ struct Improvement {
 
 /// Improves the shapes of slivers by the third step of repair_mesh(). Vertices keep their numbers;
 /// a vertex whose edge was collapsed has no tetrahedron left.
+/// @param mesh     mesh to change
 /// @param numbers  one number per tetrahedron; numbers of dropped tetrahedra are dropped as well
 Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers);
 
@@ -26,6 +27,7 @@ Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers);
 /// There are at most 10 rounds. The surface gets the two other faces, and so the opposite edge. It
 /// moves by the sliver's height at most, which is a twentieth of its longest edge. A sliver stays
 /// if the edge between its other two faces is an edge of the boundary already.
+/// @param mesh     mesh to change
 /// @param numbers  one number per tetrahedron; numbers of dropped tetrahedra are dropped as well
 /// @return the number of dropped tetrahedra
 int peel_slivers(TetMesh& mesh, std::vector<int>& numbers);

@@ -12,14 +12,28 @@ std::unique_ptr<Elasticity<B>> make_linear_elasticity();
 template <class B, class Material>
 std::unique_ptr<Elasticity<B>> make_nodal_elasticity();
 
+namespace {
+
+/// Returns none in float where simulations do not run in it: there only nodal elements are needed.
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> linear_elasticity() {
+  if constexpr (is_built<typename B::Real>)
+    return make_linear_elasticity<B, Material>();
+  else
+    return nullptr;
+}
+
+}  // namespace
+
 template <class B>
 std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Element element) {
   std::unique_ptr<Elasticity<B>> made;
   Materials::visit(material, [&](auto m) {
     using Material = KernelsOf<decltype(m)>;
-    if (element == Element::nodal) made = make_nodal_elasticity<B, Material>();
-    if constexpr (is_built<typename B::Real>)
-      if (element == Element::linear) made = make_linear_elasticity<B, Material>();
+    if (element == Element::nodal)
+      made = make_nodal_elasticity<B, Material>();
+    else
+      made = linear_elasticity<B, Material>();
   });
   if (!made) throw InputError(unknown_name("material", material, names(materials())));
   return made;

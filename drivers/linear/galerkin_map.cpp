@@ -136,6 +136,6 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
 #define PLICA_INSTANTIATE(Real, Exec)                                            \
   template CoarseMatrix<Backend<Real, Exec>> coarse_matrix<Backend<Real, Exec>>( \
       const HostPattern&, const RowMatrix&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

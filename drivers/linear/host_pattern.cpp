@@ -61,6 +61,6 @@ BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern)
   template HostPattern host_pattern<Backend<Real, Exec>>(const BlockMatrix<Backend<Real, Exec>>&); \
   template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&,  \
                                                                               const HostPattern&);
-PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -96,7 +96,10 @@ std::optional<CycleChoice> choose_cycle(const Problem& problem, const ChoiceOpti
 
 /// Chooses cycle and macro step for `integration.cycle: auto`, with a given simulation; none for
 /// any other cycle.
-/// @param alone  simulation of level_0_alone() that has not been stepped; it is not stepped here
+/// @param problem  problem to be simulated
+/// @param alone    simulation of level_0_alone() that has not been stepped; it is not stepped here
+/// @param options  run length and clock
+/// @param exec     execution space instance that runs the trials
 template <class B>
 std::optional<CycleChoice> choose_cycle(const Problem& problem, const Simulation<B>& alone,
                                         const ChoiceOptions& options,
@@ -104,6 +107,8 @@ std::optional<CycleChoice> choose_cycle(const Problem& problem, const Simulation
 
 /// Returns sentences that say what cycle auto would try, and why; empty for any other cycle. Steps
 /// nothing.
+/// @param problem     problem to be simulated
+/// @param duration    simulated time of the run [s]
 /// @param alone       report of level 0 without the other levels
 /// @param macro_step  automatic macro step of level 0 alone [s]
 std::string trials_ahead(const Problem& problem, double duration, const LevelReport& alone,

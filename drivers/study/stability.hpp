@@ -20,8 +20,14 @@ struct StepRange {
 
 /// Result of the search for a largest stable step.
 struct LargestStep {
-  enum class Kind { limited, growing, unlimited } kind = Kind::limited;
-  double step = 0;  ///< largest stable step found; growing: smallest unstable one [s]
+  /// Outcome of the search.
+  enum class Kind {
+    limited,   ///< a largest stable step was found
+    growing,   ///< even the shortest step tried is unstable
+    unlimited  ///< even the longest step tried is stable
+  };
+  Kind kind = Kind::limited;  ///< outcome of the search
+  double step = 0;            ///< largest stable step found; growing: smallest unstable one [s]
 };
 
 /// Finds the largest stable step near the guess. It brackets the step at which stable(step) becomes
@@ -65,8 +71,10 @@ struct SceneLimit {
 
 /// Stability of a method on one problem.
 struct StabilityRow {
-  std::string method, distribution, variant;  ///< see StudyCase
-  std::string integrator;                     ///< with a level alone: its integrator
+  std::string method;        ///< name of the method, see StudyCase
+  std::string distribution;  ///< distribution of a cycle; with cycle/auto its error class
+  std::string variant;       ///< variant of a cycle, by name; empty: the problem's own settings
+  std::string integrator;    ///< with a level alone: its integrator
   /// limited | unlimited: stable up to stable_up_to | growing: at every useful step | refused
   std::string status;
   std::string reason;  ///< why it is refused
@@ -78,26 +86,31 @@ struct StabilityRow {
   std::optional<double> ratio;         ///< measured over predicted
   std::optional<double> stable_up_to;  ///< unlimited: the largest macro step that was run [s]
   std::optional<double> growth_step;   ///< macro step of `spectral_radius` [s]
-  /// see CycleGrowth; for cycles, and for methods that are growing
-  std::optional<double> spectral_radius, growth_per_second;
+  /// factor by which small motions grow in a macro step, in the long run. It is there for cycles
+  /// and for methods that are growing, see CycleGrowth
+  std::optional<double> spectral_radius;
+  /// log(spectral_radius) over the macro step [1/s]; > 0: small motions grow
+  std::optional<double> growth_per_second;
   /// limit of the scene itself; none where small motions tell all: `linear` without obstacles
   std::optional<SceneLimit> scene;
+  /// Returns the name of the row, for example "cycle/rsv/critical+hybrid" or "coarse/1, rk4".
   std::string label() const;
 };
 
 /// Rows of all methods, and the methods that were left out.
 struct StabilityResult {
-  std::vector<StabilityRow> rows;
+  std::vector<StabilityRow> rows;     ///< one per examined method
   std::vector<std::string> left_out;  ///< methods for which time was short
   bool stopped = false;               ///< true where the caller ended it early
 };
 
 /// Progress of a search.
 struct StabilityProgress {
-  std::string doing;
-  std::size_t done = 0, of = 0;  ///< numbers of methods
-  const StabilityResult* so_far = nullptr;
-  bool new_row = false;  ///< true where a row was added since the last call
+  std::string doing;                        ///< label of the method that is examined
+  std::size_t done = 0;                     ///< number of rows so far
+  std::size_t of = 0;                       ///< number of methods
+  const StabilityResult* so_far = nullptr;  ///< result so far
+  bool new_row = false;                     ///< true where a row was added since the last call
 };
 
 /// Function called before, during and after every method; false stops the search.
@@ -113,8 +126,10 @@ using StabilityWatch = std::function<bool(const StabilityProgress&)>;
 ///
 /// Throws InputError for bad options or problems; methods that refuse are rows. Kokkos must be
 /// initialised.
+/// @param problem  problem whose methods are examined
 /// @param options  used are the methods (empty: all, explicit integrators on coarser levels too),
 ///                 variants, duration, budget, and the first precision
+/// @param watch    function called with the progress; empty: none
 StabilityResult stability(const Problem& problem, const StudyOptions& options,
                           const StabilityWatch& watch = {});
 

@@ -25,10 +25,12 @@ using TruthWatch = std::function<bool(const std::string& doing, double part)>;
 /// Throws InputError where not even one refinement fits the budget. It also does where a run does
 /// not complete at an eighth of its step.
 ///
-/// @param budget  wall time for all of it [s]; none: no limit. The second of two refinements is
-/// left
-///                out where both take more than half of the budget
-/// @return        own error: Truth::error(); the trajectory is empty where the watch stopped it
+/// @param problem  problem to be simulated
+/// @param options  settings of the study; StudyOptions::truth must be set
+/// @param budget   wall time for all of it [s]; none: no limit. The second of two refinements is
+///                 left out where both take more than half of the budget
+/// @param watch    function called with the progress; empty: none
+/// @return         own error: Truth::error(); the trajectory is empty where the watch stopped it
 StudyReference make_truth(const Problem& problem, const StudyOptions& options,
                           std::optional<double> budget, const TruthWatch& watch);
 

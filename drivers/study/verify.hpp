@@ -12,7 +12,7 @@ namespace plica {
 struct VerifyValue {
   std::string mesh;  ///< cells of the mesh, "40x2x2", or another setting
   double size = 0;   ///< size of the cells, or of the step, in any unit
-  double value = 0;
+  double value = 0;  ///< value of the quantity, in the unit of the row
 };
 
 /// Rule that decides whether a row is ok.
@@ -30,14 +30,17 @@ enum class Judged {
 
 /// One quantity of a problem with a known solution, on several meshes.
 struct VerifyRow {
-  std::string problem = {}, quantity = {}, unit = {};
+  std::string problem = {};        ///< name of the problem, see verify_problems()
+  std::string quantity = {};       ///< description of the quantity
+  std::string unit = {};           ///< unit of the values; "1": plain numbers
   std::string element = "linear";  ///< kind of elements
   std::string mesh = "regular";    ///< kind of meshes: regular, jittered or delaunay
+  /// accepted value of the quantity; with Judged::order the accepted order. None: there is none
   std::optional<double> accepted = {};
-  std::string source = {};  ///< source of the accepted value
-  std::vector<VerifyValue> ours = {};
-  Judged judged = Judged::nothing;
-  double tolerance = 0;
+  std::string source = {};             ///< source of the accepted value
+  std::vector<VerifyValue> ours = {};  ///< computed values, the finest last
+  Judged judged = Judged::nothing;     ///< rule that decides whether the row is ok
+  double tolerance = 0;                ///< tolerance of the rule, relative or absolute: see Judged
   /// power of the values that is extrapolated: -1 for deflections and 2 for frequencies, which
   /// makes it a stiffness
   double power = 1;
@@ -46,6 +49,7 @@ struct VerifyRow {
   std::optional<double> order = {};  ///< observed order
   std::string outcome = {};          ///< ok | not ok | shown
 
+  /// Adds a computed value; `of` names its mesh or setting, see VerifyValue.
   void add(const std::string& of, double size, double value) { ours.push_back({of, size, value}); }
 };
 
@@ -57,17 +61,18 @@ struct VerifyOptions {
 
 /// Rows of all problems.
 struct VerifyResult {
-  std::vector<VerifyRow> rows;
-  bool stopped = false;  ///< true where the caller ended it early
-  bool ok() const;       ///< returns whether no row is "not ok"
+  std::vector<VerifyRow> rows;  ///< one per quantity, in the order of the problems
+  bool stopped = false;         ///< true where the caller ended it early
+  bool ok() const;              ///< returns whether no row is "not ok"
 };
 
 /// Progress of verify().
 struct VerifyProgress {
-  std::string doing;
-  std::size_t done = 0, of = 0;  ///< numbers of problems
-  const VerifyResult* so_far = nullptr;
-  bool new_rows = false;  ///< true where rows were added since the last call
+  std::string doing;                     ///< name of the problem that is solved
+  std::size_t done = 0;                  ///< number of problems that are done
+  std::size_t of = 0;                    ///< number of chosen problems
+  const VerifyResult* so_far = nullptr;  ///< result so far
+  bool new_rows = false;                 ///< true where rows were added since the last call
 };
 
 /// Function called before every mesh and after every problem; false ends verify().

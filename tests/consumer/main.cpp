@@ -3,10 +3,7 @@
 #include <Kokkos_Core.hpp>
 #include <algorithm>
 #include <iostream>
-#include <plica/core/error.hpp>
-#include <plica/drivers/run/simulation.hpp>
-#include <plica/meshes/generators.hpp>
-#include <plica/version.hpp>
+#include <plica/plica.hpp>
 
 int main(int argc, char** argv) {
   const Kokkos::ScopeGuard kokkos(argc, argv);

@@ -25,18 +25,25 @@ void describe(V& v, BlockOptions& o) {
 
 /// Box in any orientation. The nearest point is on a face, an edge or a corner.
 struct Block {
+  /// Name of the shape in scenes
   static constexpr const char* name = "box";
+  /// One line about the shape, for lists
   static constexpr const char* summary = "a solid box";
+  /// Returns the centre, about which torques on the obstacle are at t = 0 [m].
   static Point origin(const BlockOptions& o) { return o.centre; }
+  /// Returns the radius of the largest ball in the box [m].
   static double radius(const BlockOptions& o) { return o.size.minCoeff() / 2; }
-  using Options = BlockOptions;
+  using Options = BlockOptions;  ///< parameters of the shape
+
+  /// Signed distance to the box, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = true;
-    Vec3<Real> centre;
-    Mat3<Real> axes;  ///< rows: directions of the edges
-    Vec3<Real> half;  ///< half of the edges' lengths
+    static constexpr bool convex = true;  ///< true where the solid is convex
+    Vec3<Real> centre;                    ///< [m]
+    Mat3<Real> axes;                      ///< rows: directions of the edges
+    Vec3<Real> half;                      ///< half of the edges' lengths [m]
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = axes * (x - centre);
       Vec3<Real> beyond;  // the faces
@@ -56,6 +63,7 @@ struct Block {
     }
   };
 
+  /// Returns the shape with these options, for kernels.
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     const double turn = o.rotation.norm();

@@ -30,18 +30,25 @@ void describe(V& v, BowlOptions& o) {
 /// The nearest point is on the spherical shell below the rim, on the top's plane beside it, or,
 /// seen from above, on the rim's edge.
 struct Bowl {
+  /// Name of the shape in scenes
   static constexpr const char* name = "bowl";
+  /// One line about the shape, for lists
   static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
+  /// Returns the centre of the sphere, about which torques on the obstacle are at t = 0 [m].
   static Point origin(const BowlOptions& o) { return o.centre; }
+  /// Returns infinity: the block around the hollow has no end.
   static double radius(const BowlOptions&) { return std::numeric_limits<double>::infinity(); }
-  using Options = BowlOptions;
+  using Options = BowlOptions;  ///< parameters of the shape
+
+  /// Signed distance to the bowl, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = false;
-    Vec3<Real> centre;
-    Real radius;
-    Real top;  ///< height of the rim's plane above the centre, rim - radius <= 0
+    static constexpr bool convex = false;  ///< true where the solid is convex
+    Vec3<Real> centre;                     ///< centre of the sphere [m]
+    Real radius;                           ///< radius of the sphere [m]
+    Real top;  ///< height of the rim's plane above the centre, rim - radius <= 0 [m]
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - centre;
       const Real r = sqrt(dot(d, d)), inside = radius - r, above = d[2] - top;
@@ -61,11 +68,13 @@ struct Bowl {
     }
   };
 
+  /// Returns the options with a rim of 0 replaced by the radius.
   static Options complete(Options o) {
     if (!(o.rim > 0)) o.rim = o.radius;
     return o;
   }
 
+  /// Throws InputError where the rim is higher than the radius.
   static void check(const std::string& path, const Options& o) {
     if (o.rim > o.radius)
       throw InputError(path + ".rim is " + keys::Quantity{keys::length}.to_text(o.rim) +
@@ -73,6 +82,7 @@ struct Bowl {
                        keys::Quantity{keys::length}.to_text(o.radius));
   }
 
+  /// Returns the shape with these options, for kernels.
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     return {vec3<Real>(o.centre), static_cast<Real>(o.radius), static_cast<Real>(o.rim - o.radius)};

@@ -24,17 +24,26 @@ void describe(V& v, CapsuleOptions& o) {
 
 /// Capsule: all points within `radius` of a straight line with two ends.
 struct Capsule {
+  /// Name of the shape in scenes
   static constexpr const char* name = "capsule";
+  /// One line about the shape, for lists
   static constexpr const char* summary = "a cylinder with round ends";
+  /// Returns the middle, about which torques on the obstacle are at t = 0 [m].
   static Point origin(const CapsuleOptions& o) { return (o.from + o.to) / 2; }
+  /// Returns the radius of the largest ball in the capsule [m].
   static double radius(const CapsuleOptions& o) { return o.radius; }
-  using Options = CapsuleOptions;
+  using Options = CapsuleOptions;  ///< parameters of the shape
+
+  /// Signed distance to the capsule, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = true;
-    Vec3<Real> from, axis;  ///< axis: a unit vector
-    Real length, radius;
+    static constexpr bool convex = true;  ///< true where the solid is convex
+    Vec3<Real> from;                      ///< end of the middle line at which `axis` begins [m]
+    Vec3<Real> axis;                      ///< unit vector from this end to the other one
+    Real length;                          ///< length of the middle line [m]
+    Real radius;                          ///< [m]
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - from;
       const Real along = dot(d, axis), on_line = along < 0        ? Real(0)
@@ -46,8 +55,10 @@ struct Capsule {
     }
   };
 
+  /// Throws InputError where the two ends are at one place.
   static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
 
+  /// Returns the shape with these options, for kernels.
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     const Point along = o.to - o.from;

@@ -27,22 +27,33 @@ void describe(V& v, ConeOptions& o) {
 
 /// Cone with flat ends or a tip.
 struct Cone {
+  /// Name of the shape in scenes
   static constexpr const char* name = "cone";
+  /// One line about the shape, for lists
   static constexpr const char* summary = "a cone with a tip or flat ends";
+  /// Returns the middle of the axis, about which torques on the obstacle are at t = 0 [m].
   static Point origin(const ConeOptions& o) { return (o.from + o.to) / 2; }
-  // Takes the narrower end, which fits between points before the rest does; 0: a tip.
+  /// Returns the radius of the narrower end, or if smaller, half of the length [m]. It is 0 for a
+  /// cone with a tip. The narrower end fits between points before the rest does.
   static double radius(const ConeOptions& o) {
     return std::min({o.radius, o.to_radius, (o.to - o.from).norm() / 2});
   }
-  using Options = ConeOptions;
+  using Options = ConeOptions;  ///< parameters of the shape
+
+  /// Signed distance to the cone, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = true;
-    Vec3<Real> from, axis;           ///< axis: a unit vector
-    Real length, radius, to_radius;  ///< radius: at from
-    /// Length of the side; unit vector along the side: its parts across the axis and along it
-    Real side, widening, rising;
+    static constexpr bool convex = true;  ///< true where the solid is convex
+    Vec3<Real> from;                      ///< centre of one end [m]
+    Vec3<Real> axis;                      ///< unit vector from this end to the other one
+    Real length;                          ///< distance between the ends [m]
+    Real radius;                          ///< radius at `from` [m]
+    Real to_radius;                       ///< radius at the other end [m]
+    Real side;                            ///< length of the side, from rim to rim [m]
+    Real widening;  ///< part across the axis of the unit vector along the side; < 0: narrows
+    Real rising;    ///< part along the axis of the unit vector along the side
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - from;
       const Real along = dot(d, axis);
@@ -64,8 +75,10 @@ struct Cone {
     }
   };
 
+  /// Throws InputError where the two ends are at one place.
   static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
 
+  /// Returns the shape with these options, for kernels.
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     const Point along = o.to - o.from;

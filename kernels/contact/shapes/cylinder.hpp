@@ -24,19 +24,28 @@ void describe(V& v, CylinderOptions& o) {
 
 /// Cylinder with flat ends.
 struct Cylinder {
+  /// Name of the shape in scenes
   static constexpr const char* name = "cylinder";
+  /// One line about the shape, for lists
   static constexpr const char* summary = "a cylinder with flat ends";
+  /// Returns the centre, about which torques on the obstacle are at t = 0 [m].
   static Point origin(const CylinderOptions& o) { return (o.from + o.to) / 2; }
+  /// Returns the radius of the largest ball in the cylinder [m].
   static double radius(const CylinderOptions& o) {
     return std::min(o.radius, (o.to - o.from).norm() / 2);
   }
-  using Options = CylinderOptions;
+  using Options = CylinderOptions;  ///< parameters of the shape
+
+  /// Signed distance to the cylinder, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = true;
-    Vec3<Real> centre, axis;  ///< axis: a unit vector
-    Real half, radius;        ///< half: of the length
+    static constexpr bool convex = true;  ///< true where the solid is convex
+    Vec3<Real> centre;                    ///< [m]
+    Vec3<Real> axis;                      ///< unit vector from one end to the other
+    Real half;                            ///< half of the length [m]
+    Real radius;                          ///< [m]
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - centre;
       const Real along = dot(d, axis);
@@ -54,8 +63,10 @@ struct Cylinder {
     }
   };
 
+  /// Throws InputError where the two ends are at one place.
   static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
 
+  /// Returns the shape with these options, for kernels.
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     const Point along = o.to - o.from;

@@ -33,20 +33,27 @@ void describe(V& v, SurfaceOptions& o) {
 /// between. The normal is the gradient's direction. Outside the grid the distance is a lower bound:
 /// the distance to the grid and its margin.
 struct SampledSurface {
+  /// Name of the shape in scenes
   static constexpr const char* name = "surface";
+  /// One line about the shape, for lists
   static constexpr const char* summary =
       "the inside of a closed triangulated surface, or a sheet of one";
+  /// Returns the origin of the surface's coordinates, about which torques on the obstacle are at
+  /// t = 0 [m].
   static Point origin(const SurfaceOptions&) { return Point::Zero(); }
-  using Options = SurfaceOptions;
+  using Options = SurfaceOptions;  ///< parameters of the shape
+
+  /// Signed distance to the surface on its grid, as kernels evaluate it.
   template <class Real>
   struct Shape {
-    static constexpr bool convex = false;
+    static constexpr bool convex = false;  ///< true where the solid is convex
     const Real* value;  ///< [nodes of z][of y][of x] m, in memory that the calling code can read
     int nodes[3];       ///< along x, y, z; each at least 2
     Vec3<Real> origin;  ///< lowest node
     Real cell;          ///< [m]
     Real margin;        ///< no node on the grid's outside is nearer to the surface [m]
 
+    /// Returns distance and normal at a position in the axes of the shape [m].
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - origin;
       Vec3<Real> beyond, weight;
@@ -92,6 +99,7 @@ struct SampledSurface {
     }
   };
 
+  /// Throws InputError for 1 to 3 cells, which are too few.
   static void check(const std::string& path, const Options& o) {
     if (o.cells > 0 && o.cells < 4)
       throw InputError(path + ".cells is " + std::to_string(o.cells) +
