@@ -55,9 +55,9 @@ struct OgdenTerm {
 /// Material of a body.
 struct MaterialOptions {
   std::string model = "neo_hookean";  ///< one of materials()
-  double young_modulus = 20e3;                ///< [Pa]
-  double poisson_ratio = 0.4;                 ///< lateral contraction
-  double density = 1000;                      ///< [kg/m^3]
+  double young_modulus = 20e3;        ///< [Pa]
+  double poisson_ratio = 0.4;         ///< lateral contraction
+  double density = 1000;              ///< [kg/m^3]
   /// True where elements may turn inside out; none: as the material has it
   std::optional<bool> allow_inversion = {};
   /// Further values that the material declares, by name, in SI
