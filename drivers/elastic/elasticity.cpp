@@ -8,22 +8,7 @@ namespace plica {
 
 // Defined in sources that the build writes, one for each material, one for all laws of tissue.
 template <class B, class Material>
-std::unique_ptr<Elasticity<B>> make_linear_elasticity();
-template <class B, class Material>
 std::unique_ptr<Elasticity<B>> make_nodal_elasticity();
-
-namespace {
-
-/// Returns none in float where simulations do not run in it: there only nodal elements are needed.
-template <class B, class Material>
-std::unique_ptr<Elasticity<B>> linear_elasticity() {
-  if constexpr (is_built<typename B::Real>)
-    return make_linear_elasticity<B, Material>();
-  else
-    return nullptr;
-}
-
-}  // namespace
 
 template <class B>
 std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Element element) {

@@ -58,4 +58,18 @@ template <class B>
 std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material,
                                                Element element = Element::linear);
 
+/// Returns the kernels of linear elements of a material; compiled in a source for each material.
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> make_linear_elasticity();
+
+/// Returns the kernels of linear elements of a material; none in a precision that no simulation
+/// runs in, where only nodal elements are needed.
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> linear_elasticity() {
+  if constexpr (is_built<typename B::Real>)
+    return make_linear_elasticity<B, Material>();
+  else
+    return nullptr;
+}
+
 }  // namespace plica

@@ -6,10 +6,6 @@
 
 namespace plica {
 
-/// Returns the kernels of linear elements; defined in another source.
-template <class B, class Material>
-std::unique_ptr<Elasticity<B>> make_linear_elasticity();
-
 /// Kernels of nodal elements of one material.
 /// A matrix of nodal elements would have four times the blocks of that of linear elements. So
 /// blocks() assembles linear elements, for preconditioners.
@@ -68,7 +64,7 @@ class NodalElasticity final : public Elasticity<B> {
   static bool has_kept(const LevelData<B>& level, const Vectors<B>& u) {
     return u.extent(0) == 0 && level.nodal.tangent.extent(0) > 0;
   }
-  std::unique_ptr<Elasticity<B>> linear_ = make_linear_elasticity<B, Material>();
+  std::unique_ptr<Elasticity<B>> linear_ = linear_elasticity<B, Material>();
 };
 
 template <class B, class Material>
