@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The kernels of OwnMaterials of kernels/materials/list.hpp and of TissueLaws, in sources of its own, one for each kind of elements: sets material_sources. A material NeoHookean
-# is in neo_hookean.hpp.
+# The kernels of OwnMaterials of kernels/materials/list.hpp and of TissueLaws, in sources of their own, one for each
+# kind of elements and precision: sets material_sources. A material NeoHookean is in neo_hookean.hpp.
 set(list ${PROJECT_SOURCE_DIR}/kernels/materials/list.hpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
 file(READ ${list} text)
@@ -16,12 +16,14 @@ foreach(Material IN LISTS materials)
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/kernels/materials/${file}.hpp)
     message(FATAL_ERROR "${list} names ${Material}; its file kernels/materials/${file}.hpp is not there")
   endif()
-  foreach(element linear nodal)
-    set(for_each PLICA_FOR_EACH_BACKEND)
-    if(element STREQUAL nodal) # preconditioners take products with them in float
-      set(for_each PLICA_FOR_EACH_PRECISION)
+  foreach(kernels linear_double linear_float nodal_double nodal_float)
+    # those of nodal elements in float are for preconditioners, too
+    if(kernels STREQUAL linear_float AND PLICA_WITHOUT_FLOAT IN_LIST plica_left_out)
+      continue()
     endif()
-    set(source ${PROJECT_BINARY_DIR}/materials/${element}_elasticity_of_${file}.cpp)
+    string(REPLACE "_" ";" words ${kernels})
+    list(POP_FRONT words element precision)
+    set(source ${PROJECT_BINARY_DIR}/materials/${kernels}_elasticity_of_${file}.cpp)
     configure_file(${PROJECT_SOURCE_DIR}/drivers/elastic/elasticity_of.cpp.in ${source} @ONLY)
     list(APPEND material_sources ${source})
   endforeach()

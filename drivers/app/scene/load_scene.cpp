@@ -82,7 +82,7 @@ Scene read_scene(const Tree& tree) {
     if (recipe.tool) made.shape = recipe.tool->options;
   }
   if (!scene.obstacles.empty() && !scene.surface && !scene.lattices && scene.bodies.empty())
-    scene.surface = SurfaceRecipe{.boundary = true};
+    scene.surface.emplace().boundary = true;
   scene.source = tree;
   return scene;
 }

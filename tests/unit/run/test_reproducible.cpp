@@ -137,7 +137,9 @@ TEST(Threads, OneTwoAndFourLetABodyStickWithTheSameBits) {
   }
 }
 TEST(Threads, OneAndTwoGiveTheSameBitsInDouble) { expect_one_thread_is_two<double>(); }
+#ifndef PLICA_WITHOUT_FLOAT
 TEST(Threads, OneAndTwoGiveTheSameBitsInFloat) { expect_one_thread_is_two<float>(); }
+#endif
 
 #if defined(KOKKOS_ENABLE_SERIAL)
 TEST(Threads, SerialAndOpenMPGiveTheSameBits) {
