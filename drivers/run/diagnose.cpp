@@ -171,13 +171,16 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   return d;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                            \
-  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&,                          \
-                                                           const Vectors<Backend<Real, Exec>>&); \
-  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>(                          \
-      const BuiltHierarchy<Backend<Real, Exec>>&);                                               \
-  template Diagnosis locate_failure<Backend<Real, Exec>>(                                        \
-      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&,                            \
+#define PLICA_TO_HOST(Real, Exec)                                       \
+  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&, \
+                                                           const Vectors<Backend<Real, Exec>>&);
+PLICA_FOR_EACH_PRECISION(PLICA_TO_HOST)
+
+#define PLICA_INSTANTIATE(Real, Exec)                                   \
+  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>( \
+      const BuiltHierarchy<Backend<Real, Exec>>&);                      \
+  template Diagnosis locate_failure<Backend<Real, Exec>>(               \
+      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&,   \
       const std::vector<State<Backend<Real, Exec>>>&, int, const std::string&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
