@@ -184,7 +184,7 @@ TEST(PinnedRuns, AreTheSameForEveryNumberOfThreads) {
     return;
   }
   const Hashes one = hashes_with(1);
-  ASSERT_GE(one.size(), 10u);
+  ASSERT_GE(one.size(), is_built<float> ? 10u : 5u);
   for (const int threads : {2, 3, 8}) EXPECT_EQ(hashes_with(threads), one) << threads << " threads";
   const auto pins = pinned.find({processor, PLICA_VECTOR_BYTES});
   for (const auto& [name, hash] : one) {

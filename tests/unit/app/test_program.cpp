@@ -188,6 +188,8 @@ TEST_F(Program, WarnsOfElementsThatTurnInsideOut) {
                                       out,
                                       "--force",
                                       "--set",
+                                      "body.material.model=st_venant_kirchhoff",
+                                      "--set",
                                       "body.material.young_modulus=3 kPa",
                                       "--set",
                                       "output.every=20 ms"};
