@@ -23,9 +23,9 @@ bodies:
     surface: {boundary: true}
   right:
     levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]
-    material: {model: st_venant_kirchhoff}
     initial: {position: [2.5, 0.5, 0.5], velocity: [-1, 0, 0]}
     surface: {sphere: {radius: 0.4, subdivisions: 1}}
+    material: {model: st_venant_kirchhoff}
 contact: {friction: 0.2}
 )";
 
