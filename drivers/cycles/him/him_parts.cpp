@@ -199,6 +199,10 @@ std::vector<HimParts<B>> him_parts(StepperSetup<B>& setup) {
   std::vector<LevelsBelow> below;
   Places places;
   for (const BodyAtRest& body : bodies) {
+    if (std::ranges::find(body.constrained.front(), 0) == body.constrained.front().end())
+      throw InputError(
+          "integration.cycle is him, but all vertices of a body are fixed or have given motions, "
+          "and nothing is left to step; expected cycle: single");
     std::vector<RestLevel> levels;
     for (std::size_t i = 0; i < body.meshes.size(); ++i)
       levels.push_back({body.meshes[i], body.constrained[i], body.up[i]});

@@ -249,6 +249,8 @@ TEST(Units, ReadsNumbersWithUnits) {
                         {"3 m/s", 3, velocity},
                         {"180 deg/s", std::numbers::pi, angular_velocity},
                         {"2 N/m^2", 2, pressure},
+                        {"1 mmHg", 133.322387415, pressure},
+                        {"2 bar", 2e5, pressure},
                         {"40 %", 0.4, plain}};
   for (const Case& c : cases) {
     const Measured measured = measure(c.text);

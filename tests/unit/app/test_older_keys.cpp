@@ -53,6 +53,20 @@ TEST(OlderKeys, SayTheSame) {
   EXPECT_TRUE(scene.output.probes.contains("plane"));
 }
 
+TEST(OlderKeys, AreKnownWhereverTheyMayStand) {
+  const auto present = [](const std::string& text) {
+    Tree tree = parse_tree(text, "a.yaml");
+    use_present_keys(tree);
+    return json_of(tree).dump();
+  };
+  EXPECT_NE(present("bodies: {plane: {pressure: plain}}").find("volumetric_smoothing"),
+            std::string::npos);
+  for (const char* text :
+       {"body: {initial: {parts: [{plane: {}}]}}", "body: {fibres: {from: {plane: {}}}}",
+        "body: {fibres: {to: {plane: {}}}}", "attachments: [{where: {plane: {}}}]"})
+    EXPECT_NE(present(text).find("half_space"), std::string::npos) << text;
+}
+
 TEST(OlderKeys, AreAnsweredByOneWarningEach) {
   std::vector<std::string> of_keys;
   for (const std::string& warning : loaded(older).warnings)

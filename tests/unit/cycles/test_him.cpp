@@ -295,6 +295,11 @@ TEST(Him, RefusesWhatItCannotDo) {
         p.body.levels.back() = box_mesh(beam_box, {40, 8, 8}), p.body.coarsen = {2000};
       },
       "it has 2000 points, expected at most 1500");
+  refuses(
+      [](Problem& p) {
+        p.body.fixed = {Box{{-9, -9, -9}, {9, 9, 9}}};
+      },
+      "nothing is left to step");
 }
 
 }  // namespace
