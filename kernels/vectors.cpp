@@ -122,7 +122,7 @@ void each(const Exec& exec, const char* label, std::size_t count, const Work& wo
 }
 
 template <class B>
-int rows(const Vectors<B>& x) {
+int length_of(const Vectors<B>& x) {
   return static_cast<int>(x.extent(0));
 }
 
@@ -160,33 +160,33 @@ template <class B>
 void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                   typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
                   const Vectors<B>& out) {
-  update_vertices<B>(exec, label, rows<B>(out), CombineFree<B>{inverse_mass, a, b, x, y, out});
+  update_vertices<B>(exec, label, length_of<B>(out), CombineFree<B>{inverse_mass, a, b, x, y, out});
 }
 
 template <class B>
 void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model,
            typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
            const Vectors<B>& out) {
-  update_vertices<B>(exec, label, rows<B>(out),
+  update_vertices<B>(exec, label, length_of<B>(out),
                      Weigh<B>{model.mass, model.inverse_mass, a, b, x, y, out});
 }
 
 template <class B>
 void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const Vectors<B>& y,
          const BlockSums<B>& blocks, const Doubles<B>& result) {
-  reduce<B, 1>(exec, label, rows<B>(x), Dot<B>{x, y}, blocks, result);
+  reduce<B, 1>(exec, label, length_of<B>(x), Dot<B>{x, y}, blocks, result);
 }
 
 template <class B>
 void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x,
                const BlockSums<B>& blocks, const Doubles<B>& result) {
-  reduce<B, 1>(exec, label, rows<B>(x), First<B>{x}, blocks, result);
+  reduce<B, 1>(exec, label, length_of<B>(x), First<B>{x}, blocks, result);
 }
 
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                     const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result) {
-  reduce<B, 1>(exec, label, rows<B>(x), FillFromHash<B>{inverse_mass, x}, blocks, result);
+  reduce<B, 1>(exec, label, length_of<B>(x), FillFromHash<B>{inverse_mass, x}, blocks, result);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                              \
