@@ -1,28 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far one run's embedded surface is from another's: reads the frames of `plica run` and compares them."""
+import base64
 import bisect
 import math
-import re
 import struct
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 
 def read_points(file):
-    """The points of a frame (raw appended data, Float64), as a flat tuple x y z x y z ..."""
-    data = Path(file).read_bytes()
-    head, _, rest = data.partition(b'<AppendedData encoding="raw">')
-    start = len(data) - len(rest) + rest.index(b"_") + 1
-    count = int(re.search(rb'NumberOfPoints="(\d+)"', head).group(1))
-    offset = int(re.search(rb'Name="Points"[^>]*offset="(\d+)"', head).group(1))
-    return struct.unpack_from(f"<{3 * count}d", data, start + offset + 8)  # each array after its length in bytes
+    """The points of a frame (appended in base64, Float64), as a flat tuple x y z x y z ..."""
+    root = xml.parse(file).getroot()
+    count, offset = int(root.find(".//Piece").get("NumberOfPoints")), int(root.find(".//Points/DataArray").get("offset"))
+    size = 8 + 24 * count  # the array comes after its length in bytes
+    text = root.find("AppendedData").text.strip()[1 + offset:]
+    return struct.unpack_from(f"<{3 * count}d", base64.b64decode(text[:(size + 2) // 3 * 4]), 8)
 
 
 class Frames:
-    """Surface positions over time. `rest`: those of the first frame."""
+    """Positions over time, of the surface or of the finest mesh ("volume"). `rest`: those of the first frame."""
 
-    def __init__(self, folder):
-        sets = xml.parse(Path(folder) / "frames.pvd").getroot().iter("DataSet")
+    def __init__(self, folder, film="frames"):
+        sets = xml.parse(Path(folder) / f"{film}.pvd").getroot().iter("DataSet")
         self.times, self.files = zip(*((float(d.get("timestep")), Path(folder) / d.get("file")) for d in sets))
         self.points = [read_points(f) for f in self.files]
         self.rest = self.points[0]
