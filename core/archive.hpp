@@ -2,52 +2,97 @@
 #pragma once
 #include <cstdint>
 #include <cstring>
+#include <plica/core/each_array.hpp>
 #include <plica/core/error.hpp>
 #include <plica/core/model.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plica {
 
-/// Archive of what a simulation carries from one macro step to the next. Each owner names its
-/// numbers and fields once. The archive saves them, checks that saved bytes fit them, or restores
-/// them.
+template <class B>
+class Archive;
+
+/// Copy of what was named to an archive, with fields in the device's memory.
+template <class B>
+class KeptValues {
+ public:
+  /// Names the copies, in the order in which they were named to it.
+  void name_fields(Archive<B>& archive) {
+    for (Value& value : values_)
+      value.number.empty() ? archive.field("a kept field", value.field)
+                           : archive.number(value.number.data(), value.number.size());
+  }
+
+ private:
+  friend class Archive<B>;
+  struct Value {
+    Kokkos::View<unsigned char*, typename B::Memory> field;
+    std::vector<unsigned char> number;  ///< bytes of a number; empty: a field
+  };
+  std::vector<Value> values_;
+};
+
+/// Visitor of all that an object holds. A class names its fields and numbers once, in a function
+/// name_fields(archive): field() and number() for what it carries from one macro step to the next,
+/// owns() for other arrays. The task of the archive says what happens with them.
 template <class B>
 class Archive {
  public:
-  enum class Task { save, check, restore };
+  using Exec = typename B::Exec;
+  enum class Task {
+    measure,  ///< adds up the memory of all arrays
+    save,     ///< writes what is carried to bytes
+    check,    ///< throws InputError where bytes do not fit
+    restore,  ///< reads what is carried from bytes
+    keep,     ///< copies what is carried to KeptValues, in the order of an execution space
+    put_back  ///< copies it back
+  };
 
-  Archive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(bytes) {}
+  Archive() : task_(Task::measure) {}
+  Archive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(&bytes) {}
+  Archive(Task task, KeptValues<B>& kept, const Exec& exec)
+      : task_(task), kept_(&kept), exec_(exec) {}
 
   template <class Number>
   void number(Number& value) {
     static_assert(std::is_arithmetic_v<Number>);
-    if (task_ == Task::save)
-      put(&value, sizeof value);
-    else if (const unsigned char* from = take(sizeof value); task_ == Task::restore)
-      std::memcpy(&value, from, sizeof value);
+    number(&value, sizeof value);
+  }
+  /// Names a number of `size` bytes.
+  void number(void* value, std::size_t size) {
+    auto* const own = static_cast<unsigned char*>(value);
+    if (task_ == Task::save) bytes_->insert(bytes_->end(), own, own + size);
+    if (task_ == Task::check) take(size);
+    if (task_ == Task::restore) std::memcpy(own, take(size), size);
+    if (task_ == Task::keep) next().number.assign(own, own + size);
+    if (task_ == Task::put_back) std::memcpy(own, next().number.data(), size);
   }
 
-  /// Saves a number that must be equal later; throws InputError where it differs from the saved
+  /// Names a number that must be equal later; throws InputError where it differs from the saved
   /// one.
   template <class Number>
   void same(const std::string& what, Number value) {
-    Number saved = value;
-    if (task_ == Task::save) return number(saved);
+    if (task_ == Task::save) return number(value);
+    Number saved;
     std::memcpy(&saved, take(sizeof saved), sizeof saved);
     if (saved != value)
       throw InputError("the saved state is that of another simulation: " + what + " differs");
   }
 
-  /// Saves, checks or restores a device field, which may be empty.
+  /// Names a device field that is carried, which may be empty.
   template <class View>
   void field(const std::string& what, const View& view) {
     const std::size_t size = fields::bytes_of(view);
+    if (task_ == Task::measure) return owns(view);
+    if (task_ == Task::keep || task_ == Task::put_back) return exchange(view.data(), size);
     same<std::uint64_t>("the size of " + what, size);
     if (task_ == Task::save) {
-      bytes_.resize(bytes_.size() + size);
+      bytes_->resize(bytes_->size() + size);
       Kokkos::fence("plica::archive");
-      fields::download(typename B::Exec(), bytes_.data() + bytes_.size() - size, view.data(), size);
+      fields::download(Exec(), bytes_->data() + bytes_->size() - size, view.data(), size);
     } else if (const unsigned char* from = take(size); task_ == Task::restore && size > 0) {
       fields::upload<typename View::memory_space>(view.data(), from, size);
     }
@@ -57,28 +102,52 @@ class Archive {
     field(what + ".v", state.v);
   }
 
-  bool restoring() const { return task_ == Task::restore; }
+  /// Names arrays that are not carried: of constants and of work. See each_array().
+  template <class... Owned>
+  void owns(const Owned&... owned) {
+    const auto count = [this](const auto& array) {
+      if (array.use_count() > 0 && counted_.insert(array.data()).second)
+        measured_ += fields::bytes_of(array);
+    };
+    if (task_ == Task::measure) (each_array(owned, count), ...);
+  }
+  /// Returns the memory of the arrays that were named since the last call [bytes]. An array is
+  /// counted when it is first named, and not where it is lent.
+  std::size_t measured() { return std::exchange(measured_, 0); }
+
+  /// Returns whether what is carried becomes that of another time.
+  bool restoring() const { return task_ == Task::restore || task_ == Task::put_back; }
   /// Throws InputError where bytes are left over. Call it after all numbers and fields.
   void finish() const {
-    if (task_ != Task::save && at_ != bytes_.size())
-      throw InputError("the saved state is damaged: " + std::to_string(bytes_.size() - at_) +
+    if (task_ != Task::save && at_ != bytes_->size())
+      throw InputError("the saved state is damaged: " + std::to_string(bytes_->size() - at_) +
                        " bytes too many");
   }
 
  private:
-  void put(const void* data, std::size_t size) {
-    const auto* from = static_cast<const unsigned char*>(data);
-    bytes_.insert(bytes_.end(), from, from + size);
-  }
   const unsigned char* take(std::size_t size) {
-    if (bytes_.size() - at_ < size) throw InputError("the saved state is damaged: it ends early");
+    if (bytes_->size() - at_ < size) throw InputError("the saved state is damaged: it ends early");
     at_ += size;
-    return bytes_.data() + (at_ - size);
+    return bytes_->data() + (at_ - size);
+  }
+  typename KeptValues<B>::Value& next() {
+    if (at_ == kept_->values_.size()) kept_->values_.emplace_back();
+    return kept_->values_[at_++];
+  }
+  void exchange(void* own, std::size_t size) {
+    auto& kept = next().field;
+    if (kept.extent(0) != size) kept = unset<std::decay_t<decltype(kept)>>("plica::kept", size);
+    task_ == Task::keep ? fields::copy_bytes(exec_, kept.data(), own, size)
+                        : fields::copy_bytes(exec_, own, kept.data(), size);
   }
 
   Task task_;
-  std::vector<unsigned char>& bytes_;
-  std::size_t at_ = 0;
+  std::vector<unsigned char>* bytes_ = nullptr;
+  KeptValues<B>* kept_ = nullptr;
+  std::size_t at_ = 0;  ///< place in the bytes or values
+  Exec exec_;
+  std::set<const void*> counted_;
+  std::size_t measured_ = 0;
 };
 
 }  // namespace plica

@@ -29,7 +29,8 @@ Eigen::Map<const Matrix> matrix(int n, const double* A) { return {A, n, n}; }
 
 bool invert(int n, double* A) {
   const Eigen::LLT<Matrix> factor(matrix(n, A));
-  if (factor.info() != Eigen::Success) return false;
+  // a factor of NaN or infinity counts as a success
+  if (factor.info() != Eigen::Success || !factor.matrixLLT().diagonal().allFinite()) return false;
   matrix(n, A).setIdentity();
   factor.solveInPlace(matrix(n, A));
   return true;

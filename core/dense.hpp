@@ -7,9 +7,9 @@
 // factorised while a simulation runs. Matrices are symmetric, [n][n].
 namespace plica::dense {
 
-/// Inverts a positive definite matrix in place. Returns false where A is not positive definite:
-/// then A is of no use.
-bool invert(int n, double* A);
+/// Inverts a positive definite matrix in place; its lower half is read. Returns false, and leaves A
+/// as it is, where A is not positive definite or its lower half is not finite.
+[[nodiscard]] bool invert(int n, double* A);
 
 /// Solves K phi = s M phi for K, 3n x 3n, and a positive semi-definite M, n x n. M stands for M
 /// times the 3x3 unit matrix. Combinations whose M is below 1e-8 of what it is for their parts are

@@ -18,6 +18,9 @@ namespace plica {
 
 using namespace keys;
 
+using TissueName = NameOfAll<&MaterialOptions::tissue>;
+using PresetName = NameOfAll<&Problem::preset>;
+
 template <class V>
 void describe(V& v, Box& o) {
   v.required("min", o.min, Vector{length}, "lowest corner");
@@ -39,15 +42,15 @@ void describe(V& v, HalfSpaceSelection& o) {
 template <class V>
 void describe(V& v, Selection& o) {
   v.one_of();
-  v.alternative("box", o, Case<Box>{}, "what is inside, at rest");
-  v.alternative("sphere", o, Case<BallSelection>{}, "what is inside, at rest");
-  v.alternative("half_space", o, Case<HalfSpaceSelection>{},
+  v.alternative("box", as<Box>(o), Group{}, "what is inside, at rest");
+  v.alternative("sphere", as<BallSelection>(o), Group{}, "what is inside, at rest");
+  v.alternative("half_space", as<HalfSpaceSelection>(o), Group{},
                 "what lies on the plane or below it, at rest");
-  v.alternative("group", o, As<&GroupSelection::name, Text>(Text{}),
+  v.alternative("group", as<&GroupSelection::name>(o), Text{},
                 "a named group of the mesh file: points, lines, surfaces or a volume");
-  v.alternative("region", o, As<&RegionSelection::name, Text>(Text{}),
+  v.alternative("region", as<&RegionSelection::name>(o), Text{},
                 "a volume of the mesh file, or one of body.regions");
-  v.alternative("nearest", o, As<&NearestSelection::to, Vector>(Vector{length}),
+  v.alternative("nearest", as<&NearestSelection::to>(o), Vector{length},
                 "the one nearest to this point, on every level");
 }
 
@@ -86,12 +89,12 @@ void describe(V& v, FibreOptions& o) {
   v.one_of();
   v.alternative("axis", o.axis, Direction{},
                 "along the fibres everywhere; its length does not matter");
-  v.alternative("around", o.around, Case<FibreWinding>{},
+  v.alternative("around", o.around, Group{},
                 "round a line, as in vessels; their sheets are cylinders");
   v.alternative("field", o.field, Text{},
                 "of each element: vectors of the mesh file, of its cells or points, by their name");
   v.alternative(
-      "from", o.from, Case<Selection>{},
+      "from", o.from, Group{},
       "vertices that the fibres run from, to those of `to`, as heat would flow between them");
 }
 
@@ -103,7 +106,7 @@ void describe(V& v, OgdenTerm& o) {
 
 template <class V>
 void describe(V& v, MaterialOptions& o) {
-  v("tissue", o, TissueName{},
+  v("tissue", o, TissueName{"tissue", tissues},
     "a material with all its values, which the other keys override: plica list tissues");
   v("model", o.model, Name{"material", materials}, "constitutive law");
   describe_constants(v, o);
@@ -163,12 +166,12 @@ void describe(V& v, SineMotion& o) {
 
 template <class V>
 void describe(V& v, Motion& o) {
-  v.alternative("velocity", o, As<&SteadyMotion::velocity, Vector>(Vector{velocity}),
+  v.alternative("velocity", as<&SteadyMotion::velocity>(o), Vector{velocity},
                 "with which it moves from the start");
-  v.alternative("curve", o, CaseList<&PathMotion::knots>{},
+  v.alternative("curve", as<&PathMotion::knots>(o), List{1},
                 "displacements at given times, straight in between; before the first and after the "
                 "last it stays");
-  v.alternative("sine", o, Case<SineMotion>{},
+  v.alternative("sine", as<SineMotion>(o), Group{},
                 "oscillates: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
 }
 
@@ -195,13 +198,12 @@ void describe(V& v, Turn& o) {
   v("rotation", o.rotation, Vector{angle},
     "at the start, about the same point: [0, 0, 30 deg] turns it about z");
   v.at_most_one();
-  v.alternative("angular_velocity", o.angle,
-                As<&SteadyTurn::angular_velocity, Quantity>(Quantity{angular_velocity}),
-                "with which it turns from the start");
+  v.alternative("angular_velocity", as<&SteadyTurn::angular_velocity>(o.angle),
+                Quantity{angular_velocity}, "with which it turns from the start");
   v.alternative(
-      "curve", o.angle, CaseList<&PathTurn::knots>{},
+      "curve", as<&PathTurn::knots>(o.angle), List{1},
       "angles at given times, straight in between; before the first and after the last it stays");
-  v.alternative("sine", o.angle, Case<SineTurn>{},
+  v.alternative("sine", as<SineTurn>(o.angle), Group{},
                 "swings: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
 }
 
@@ -236,23 +238,22 @@ template <class V>
 void describe(V& v, LoadOptions& o) {
   describe(v, o.where);
   v.one_of();
-  v.alternative("traction", o.load, As<&Traction::value, Vector>(Vector{pressure}),
+  v.alternative("traction", as<&Traction::value>(o.load), Vector{pressure},
                 "force per area, on the boundary triangles at rest with all their vertices chosen");
-  v.alternative("force", o.load, As<&TotalForce::value, Vector>(Vector{force}),
+  v.alternative("force", as<&TotalForce::value>(o.load), Vector{force},
                 "of all chosen vertices together, each in proportion to its mass; on a face, "
                 "traction is more even");
-  v.alternative("follower_pressure", o.load,
-                As<&FollowerPressure::value, Quantity>(Quantity{pressure}),
+  v.alternative("follower_pressure", as<&FollowerPressure::value>(o.load), Quantity{pressure},
                 "on the same triangles, always against their sides; above 0 into the body");
   v.alternative(
-      "enclosed_volume", o.load, Case<EnclosedVolume>{},
+      "enclosed_volume", as<EnclosedVolume>(o.load), Group{},
       "of the cavity on the outer side of these triangles, by the pressure of a fluid in it");
   v.at_most_one();
-  v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
+  v.alternative("ramp", as<&RampCourse::duration>(o.course), Quantity{duration, positive},
                 "rises smoothly from zero within this time");
-  v.alternative("curve", o.course, CaseList<&PolygonCourse::knots>{},
+  v.alternative("curve", as<&PolygonCourse::knots>(o.course), List{1},
                 "factors at given times, straight in between, constant before and after");
-  v.alternative("sine", o.course, Case<SineCourse>{}, "times sin(2 pi frequency t + phase)");
+  v.alternative("sine", as<SineCourse>(o.course), Group{}, "times sin(2 pi frequency t + phase)");
 }
 
 template <class V>
@@ -289,7 +290,7 @@ void describe(V& v, InitialOptions& o) {
 /// Describes a body without its meshes and its surface.
 template <class V>
 void describe(V& v, Body& o) {
-  v("element", o.element, NamePerLevel{{"element", elements}},
+  v("element", o.element, ListOf<Name>{{"element", elements}, per_level},
     "how strains follow from the vertices, of each level");
   v("stabilisation", o.stabilisation, Quantity{plain, {.min = 0.2, .max = 1}},
     "beta of nodal elements: smaller for thin bending (0.3), larger for clean high modes (0.6)");
@@ -363,8 +364,10 @@ template <class V, class Options>
 void describe_stepping(V& v, Options& o) {
   v("shift_to_coarsest", o.shift_to_coarsest, Quantity{plain, below_one},
     "this part of every finer level's share goes to the coarsest");
-  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "each level's own");
-  v("substeps", o.substeps, AutoCountPerLevel{}, "auto: as many as the level's limit asks for");
+  v("integrator", o.integrator, ListOf<Name>{{"integrator", integrators}, per_level},
+    "each level's own");
+  v("substeps", o.substeps, ListOf<AutoCount>{{}, per_level},
+    "auto: as many as the level's limit asks for");
   v("safety", o.safety, Quantity{plain, up_to_one}, "part of that limit that auto uses");
   v("allow_unstable", o.allow_unstable, Flag{},
     "run also with explicit sub-steps above their limit");
@@ -396,7 +399,7 @@ void describe(V& v, IntegrationOptions& o) {
 /// Describes a problem without the body, its integration and contact.
 template <class V>
 void describe(V& v, Problem& o) {
-  v("preset", o, PresetName{},
+  v("preset", o, PresetName{"preset", presets},
     "a published method, whose options the other keys override: plica list presets");
   v("gravity", o.gravity, Vector{acceleration}, "acceleration of everything that is free");
 }

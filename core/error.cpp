@@ -50,6 +50,12 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
+void expect_saved(std::string_view what, std::size_t values, std::size_t expected) {
+  if (values != expected)
+    throw InputError("the saved state is damaged: it has " + std::to_string(values) +
+                     " values of " + std::string(what) + "; expected " + std::to_string(expected));
+}
+
 std::string unknown_name(std::string_view kind, std::string_view word,
                          const std::vector<std::string>& choices) {
   std::string text = "unknown " + std::string(kind) + " '" + std::string(word) + "'";

@@ -20,6 +20,9 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message, const SourceLocation& where = {});
 };
 
+/// Throws InputError where a saved state has another number of values of `what` than expected.
+void expect_saved(std::string_view what, std::size_t values, std::size_t expected);
+
 /// Returns the entry of `choices` with the smallest edit distance to `word`. It is empty when none
 /// is near: when more than a third of the letters differ.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& choices);

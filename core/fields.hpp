@@ -89,12 +89,6 @@ std::vector<typename View::non_const_value_type> host_values(const Exec& exec, c
   return values;
 }
 
-/// Returns the memory of some views [bytes].
-template <class... Views>
-std::size_t bytes_of_views(const Views&... views) {
-  return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
-}
-
 /// Returns the field where the host can read it: itself, or a copy. Waits for all work.
 template <class View>
 auto on_host(const View& x) {

@@ -3,7 +3,7 @@
 #include <plica/core/matrices.hpp>
 #include <vector>
 
-/// Arrays of the hierarchical inverse mass, see cmake/docs/him.md.
+/// Arrays of the hierarchical inverse mass, see cmake/docs/explanation/him.md.
 namespace plica {
 
 /// A coarser level of the inverse mass: a space of motions of the finest mesh, without elements or
@@ -49,7 +49,7 @@ struct FrameFields {
 
   SparseRows<B> restriction, spread;  ///< E, from the finest mesh, and its transpose
   /// Matrices from u_C to column j of G - G at rest: n columns each
-  Dense<typename B::Real> gradient_of[3];
+  Kokkos::Array<Dense<typename B::Real>, 3> gradient_of;
   /// Transpose of gradient_of, from torques to g: 3 n columns
   Dense<typename B::Real> force_of;
   /// Pi^T E^T force_of, from torques to what they add to the coarse momentum per second

@@ -54,10 +54,6 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  return words.size() == 1 ? words.front() : "[" + joined(words, ", ") + "]";
-}
-
 std::string in_words(const Dimension& dimension, const Bounds& range) {
   const std::string unit = unit_of(dimension), bounds = range.text(unit);
   return (unit.empty() ? "" : " (" + unit + ")") + (bounds.empty() ? "" : " " + bounds);
@@ -165,7 +161,8 @@ void AutoCount::check(const std::string& path, int value) const {
 }
 
 std::string Counts::to_text(const std::array<int, 3>& value) const {
-  return listed({std::to_string(value[0]), std::to_string(value[1]), std::to_string(value[2])});
+  return "[" + std::to_string(value[0]) + ", " + std::to_string(value[1]) + ", " +
+         std::to_string(value[2]) + "]";
 }
 
 std::string Name::type_text() const { return joined(names(choices()), " | "); }
@@ -174,25 +171,6 @@ void Name::check(const std::string& path, const std::string& value) const {
   const std::vector<std::string> known = names(choices());
   if (std::ranges::find(known, value) == known.end())
     throw InputError(path + ": " + unknown_name(family, value, known));
-}
-
-std::string NamePerLevel::to_text(const std::vector<std::string>& value) const {
-  return listed(value);
-}
-
-void NamePerLevel::check(const std::string& path, const std::vector<std::string>& value) const {
-  for (const std::string& one : value) name.check(path, one);
-}
-
-std::string AutoCountPerLevel::to_text(const std::vector<int>& value) const {
-  std::vector<std::string> words;
-  for (const int count : value) words.push_back(AutoCount{}.to_text(count));
-  return listed(words);
-}
-
-void AutoCountPerLevel::check(const std::string& path, const std::vector<int>& value) const {
-  for (const int count : value)
-    if (count < 0) refuse(path, std::to_string(count), type_text());
 }
 
 void Shares::check(const std::string& path, const Target& value) const {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <any>
 #include <array>
 #include <limits>
 #include <map>
 #include <optional>
 #include <plica/core/mesh.hpp>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace plica {
@@ -111,6 +114,7 @@ struct Quantity {
 struct AutoQuantity {
   Quantity quantity;
   std::string type_text() const { return quantity.type_text() + ", or auto"; }
+  static constexpr bool takes_optional = true;
   std::string to_text(const std::optional<double>& value) const {
     return value ? quantity.to_text(*value) : "auto";
   }
@@ -184,47 +188,17 @@ struct Name {
   void check(const std::string& path, const std::string& value) const;
 };
 
-/// A name of tissues(), which stands for a whole material.
-struct TissueName {
-  Name name{"tissue", tissues};
-  std::string type_text() const { return name.type_text(); }
-  template <class Material>
-  std::string to_text(const Material& of) const {
-    return of.tissue;
-  }
-  template <class Material>
-  void check(const std::string&, const Material&) const {}
-};
-
-/// A name of presets(), which stands for options of a whole problem.
-struct PresetName {
-  Name name{"preset", presets};
-  std::string type_text() const { return name.type_text(); }
-  template <class Problem>
-  std::string to_text(const Problem& of) const {
-    return of.preset;
-  }
-  template <class Problem>
-  void check(const std::string&, const Problem&) const {}
-};
-
-/// One name for all levels, or one for each.
-struct NamePerLevel {
+/// A name that stands for many options of a struct, which keeps it as `Member`.
+template <auto Member>
+struct NameOfAll {
   Name name;
-  std::string type_text() const {
-    return name.type_text() + "; or a list of them, finest level first";
+  std::string type_text() const { return name.type_text(); }
+  template <class T>
+  std::string to_text(const T& of) const {
+    return of.*Member;
   }
-  std::string to_text(const std::vector<std::string>& value) const;
-  void check(const std::string& path, const std::vector<std::string>& value) const;
-};
-
-/// One count for all levels, or one for each; `auto` is 0.
-struct AutoCountPerLevel {
-  std::string type_text() const {
-    return AutoCount{}.type_text() + "; or a list of them, finest level first";
-  }
-  std::string to_text(const std::vector<int>& value) const;
-  void check(const std::string& path, const std::vector<int>& value) const;
+  template <class T>
+  void check(const std::string&, const T&) const {}
 };
 
 /// A rule by name, or the shares themselves.
@@ -242,21 +216,24 @@ struct Shares {
   void check(const std::string& path, const Target& value) const;
 };
 
-/// One or several values of a kind.
+inline constexpr const char* per_level = ", finest level first";
+
+/// One or several values of a kind. `order` is per_level where each level has one.
 template <class Kind>
 struct ListOf {
   Kind kind;
-  std::string type_text() const { return kind.type_text() + "; or a list of them"; }
+  const char* order = "";
+  std::string type_text() const { return kind.type_text() + "; or a list of them" + order; }
   template <class T>
   std::string to_text(const std::vector<T>& value) const {
     std::string text;
     for (const T& item : value) text += (text.empty() ? "" : ", ") + kind.to_text(item);
-    return text;
+    return value.size() > 1 ? "[" + text + "]" : text;
   }
   template <class T>
   void check(const std::string& path, const std::vector<T>& value) const {
     for (std::size_t i = 0; i < value.size(); ++i)
-      kind.check(path + "." + std::to_string(i), value[i]);
+      kind.check(*order != 0 ? path : path + "." + std::to_string(i), value[i]);
   }
 };
 
@@ -276,35 +253,103 @@ struct Entry {
 
 // Kinds of options that have options of their own.
 
-/// A struct with a table, or an optional such struct.
-struct Group {};
-/// A vector of structs with a table.
-struct List {};
+/// A struct with a table.
+struct Group {
+  static constexpr const char* words = "a map";
+};
+/// A vector of structs with a table, of at least so many.
+struct List {
+  static constexpr const char* words = "a list of maps";
+  std::size_t least = 0;
+};
 /// A map of structs with a table, by names that the user chooses.
-struct Map {};
-/// A struct with a table that a variant or an optional may hold.
-template <class T>
-struct Case {};
+struct Map {
+  static constexpr const char* words = "a map of maps";
+};
 
-/// Types of a member pointer &Type::Member: the struct and the value.
-template <auto Member>
-struct MemberOf;
-template <class T, class M, M T::*Member>
-struct MemberOf<Member> {
-  using Type = T;
-  using Value = M;
+/// Place of a value that a std::variant or std::any may hold: a T, or `Member` of it.
+template <class T, class Holder, auto... Member>
+struct Alternative {
+  Holder& holder;
+  /// Returns the value; null where another alternative is held.
+  auto* get() const {
+    T* held = nullptr;
+    if constexpr (std::is_same_v<Holder, std::any>)
+      held = std::any_cast<T>(&holder);
+    else
+      held = std::get_if<T>(&holder);
+    return held == nullptr ? nullptr : &((*held).*....*Member);
+  }
+  /// Makes a value with its defaults, instead of what was held.
+  auto& make() const { return (holder.template emplace<T>().*....*Member); }
 };
-/// A value that stands for an alternative of a variant. `Member` is the member of that alternative,
-/// and has the kind.
-template <auto Member, class Kind>
-struct As : MemberOf<Member> {
-  Kind kind;
-  explicit As(const Kind& of_member) : kind(of_member) {}
-  std::string type_text() const { return kind.type_text(); }
+template <class T, class Holder>
+Alternative<T, Holder> as(Holder& holder) {
+  return {holder};
+}
+template <class T, class M>
+T struct_of(M T::*);
+template <auto Member, class Holder>
+Alternative<decltype(struct_of(Member)), Holder, Member> as(Holder& holder) {
+  return {holder};
+}
+
+/// Says whether the value of a member is in an optional, and the kind is not of the optional
+/// itself.
+template <class Kind, class T>
+concept InOptional = !requires {
+  Kind::takes_optional;
+}
+&&requires(T member) { member.has_value(); };
+
+/// Returns the value of a member: itself, or what an optional or an alternative holds; null: none.
+template <class Kind, class T>
+auto* held(const Kind&, T& member) {
+  if constexpr (requires { member.make(); })
+    return member.get();
+  else if constexpr (InOptional<Kind, T>)
+    return member ? &*member : nullptr;
+  else
+    return &member;
+}
+
+/// Returns the value of a member to be set; makes that of an optional or an alternative.
+template <class Kind, class T>
+auto& made(const Kind&, T& member) {
+  if constexpr (requires { member.make(); })
+    return member.make();
+  else if constexpr (InOptional<Kind, T>)
+    return member.emplace();
+  else
+    return member;
+}
+
+/// Visitor of a table for which all keys are alike.
+template <class Visit>
+struct EachKey {
+  const Visit& visit;
+  template <class T, class Kind>
+  void operator()(const char* key, T&& member, const Kind& kind, const char* help) const {
+    visit(key, member, kind, help);
+  }
+  template <class T, class Kind>
+  void required(const char* key, T&& member, const Kind& kind, const char* help) const {
+    visit(key, member, kind, help);
+  }
+  template <class T, class Kind>
+  void alternative(const char* key, T&& member, const Kind& kind, const char* help) const {
+    visit(key, member, kind, help);
+  }
+  void one_of() const {}
+  void at_most_one() const {}
 };
-/// A list that stands for an alternative of a variant. `Member` is the list in that alternative.
-template <auto Member>
-struct CaseList : MemberOf<Member> {};
+
+/// Calls visit(key, member, kind, help) for each key in the table of a struct.
+template <class T, class Visit>
+void for_each_key(T& options, const Visit& visit) {
+  const EachKey<Visit> visitor{visit};
+  describe(visitor, options);
+}
 
 }  // namespace plica::keys
 

@@ -53,6 +53,10 @@ struct State {
       : u(zeros<Vectors<B>>("plica::" + name + ".u", vertices)),
         v(zeros<Vectors<B>>("plica::" + name + ".v", vertices)) {}
 
+  template <class Self, class Use>
+  static void each_array(Self& self, const Use& use) {
+    use(self.u), use(self.v);
+  }
   /// Copies the values of another state, in the order of `exec`.
   void copy(const typename B::Exec& exec, const State& from) const {
     plica::copy(exec, u, from.u);

@@ -301,10 +301,10 @@ struct AttachmentOptions {
 };
 
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's
-/// triangles. See cmake/docs/contact.md. For each surface point, the scales multiply the stiffness
-/// k = 64 E A / h and the damping 2 * 0.5 * sqrt(k rho A h). A is the surface's area per point and
-/// h the finest level's mean edge. Between two bodies, the stiffness is that of both layers in
-/// series.
+/// triangles. See cmake/docs/explanation/contact.md. For each surface point, the scales multiply
+/// the stiffness k = 64 E A / h and the damping 2 * 0.5 * sqrt(k rho A h). A is the surface's area
+/// per point and h the finest level's mean edge. Between two bodies, the stiffness is that of both
+/// layers in series.
 struct ContactOptions {
   /// Constructors and copies, compiled in problem.cpp alone.
   /// @{

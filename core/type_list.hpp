@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/error.hpp>
 #include <string_view>
 #include <type_traits>
 
@@ -18,6 +19,13 @@ struct TypeList {
   template <class F>
   static bool visit(std::string_view name, const F& f) {
     return ((name == Types::name ? (f(Types{}), true) : false) || ...);
+  }
+
+  /// Calls f(T{}) for the member whose T::name is `name`. Throws InputError with the nearest name
+  /// where there is none. `kind`: what the members are.
+  template <class F>
+  static void require(std::string_view kind, std::string_view name, const F& f) {
+    if (!visit(name, f)) throw InputError(unknown_name(kind, name, {Types::name...}));
   }
 
   /// Returns the place of T, or the number of members where it is none.

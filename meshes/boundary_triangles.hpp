@@ -41,6 +41,8 @@ struct SurfaceReport {
   /// triangles with the vertices of another one in the same orientation, dropped
   int repeated = 0;
   int left_out = 0;  ///< invalid faces, dropped: at most one in a hundred
+  int welded = 0;    ///< vertices on open edges that became one with another, see weld_open_edges()
+  std::vector<std::string> notes;  ///< choices of the reader that the user should know
   /// faces of higher order, of which only the corners were used: kind -> how many
   std::map<std::string, int> linearised;
   int open_edges = 0;          ///< edges of one triangle only

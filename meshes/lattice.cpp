@@ -56,6 +56,7 @@ class Lattice {
  public:
   Lattice(const std::vector<Point>& points, double size)
       : size_(checked_size("the size of cells", size)) {
+    for (const Point& p : points) checked_point("a vertex of the surface", p);
     const Box box = bounding_box(points);
     const Point extent = box.max - box.min;
     check_cell_size(points, size);
@@ -84,7 +85,7 @@ class Lattice {
       std::array<int, 3> first, last;
       for (std::size_t a = 0; a < 3; ++a) {
         const auto cell = [&](double x) {
-          return std::clamp(static_cast<int>(std::floor(x)), 0, cells_[a] - 1);
+          return static_cast<int>(std::clamp(std::floor(x), 0.0, cells_[a] - 1.0));
         };
         first[a] = cell(from[static_cast<int>(a)] - 1e-6),
         last[a] = cell(to[static_cast<int>(a)] + 1e-6);

@@ -36,21 +36,28 @@ constexpr std::array<Diagonal, 3> diagonals = {{{m01, m23, {m02, m03, m13, m12}}
                                                 {m02, m13, {m03, m01, m12, m23}},
                                                 {m03, m12, {m01, m02, m23, m13}}}};
 
+// Returns what tetrahedra have, for the eight that replace each
+template <class Value>
+std::vector<Value> of_eight(const std::vector<Value>& of_tets) {
+  std::vector<Value> all;
+  all.reserve(8 * of_tets.size());
+  for (const Value& value : of_tets) all.insert(all.end(), 8, value);
+  return all;
+}
+
 class Refinement {
  public:
   explicit Refinement(const TetMesh& mesh) : mesh_(mesh), finer_(mesh) {
     checked_count("the number of tetrahedra", 8.0 * static_cast<double>(mesh.tets.size()));
-    finer_.tets.clear(), finer_.region.clear(), finer_.filled.clear();
+    finer_.tets.clear();
     finer_.tets.reserve(8 * mesh.tets.size());
     middles_.reserve(mesh.tets.size() * 3 / 2);
   }
 
   TetMesh made() {
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      cut(mesh_.tets[t]);
-      if (!mesh_.region.empty()) finer_.region.insert(finer_.region.end(), 8, mesh_.region[t]);
-      if (!mesh_.filled.empty()) finer_.filled.insert(finer_.filled.end(), 8, mesh_.filled[t]);
-    }
+    for (const auto& tet : mesh_.tets) cut(tet);
+    finer_.region = of_eight(mesh_.region), finer_.filled = of_eight(mesh_.filled);
+    for (auto& [name, vectors] : finer_.tet_vectors) vectors = of_eight(vectors);
     add_middles_to_sets();
     return std::move(finer_);
   }

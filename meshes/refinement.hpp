@@ -12,9 +12,9 @@ namespace plica {
 ///
 /// Vertices keep their numbers. The middles of the edges come after them, in the order in which the
 /// tetrahedra use them. The eight tetrahedra replace the one in the order of the mesh, and have its
-/// region. The middle of an edge is in the vertex sets that both ends are in. If all of a set lies
-/// on the boundary, the edge must lie there too. The boundary keeps its shape: middles are not
-/// moved onto a curved surface.
+/// region, its part that is body and its vectors. The middle of an edge is in the vertex sets that
+/// both ends are in. If all of a set lies on the boundary, the edge must lie there too. The
+/// boundary keeps its shape: middles are not moved onto a curved surface.
 ///
 /// @return  8 times the tetrahedra, each with 1/8 of the volume; InputError where a count does not
 /// fit an int

@@ -40,7 +40,7 @@ std::uint64_t key_of(const Point& p, const Box& box, double size) {
   for (int a = 0; a < 3; ++a) {
     const double at = size > 0.0 ? (p[a] - box.min[a]) / size : 0.0;
     cell[static_cast<std::size_t>(a)] =
-        static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0) * ((1u << bits) - 1));
+        at > 0.0 ? static_cast<std::uint32_t>(std::min(at, 1.0) * ((1u << bits) - 1)) : 0u;
   }
   return hilbert_number(cell);
 }

@@ -13,20 +13,19 @@ namespace plica {
 
 namespace {
 
-// Drops the tetrahedra for which keep(t) is false, with their regions, numbers and vectors
+// Drops the tetrahedra for which keep(t) is false, with all that they have, and their numbers
 template <class Keep>
 void filter(TetMesh& mesh, std::vector<int>& numbers, const Keep& keep) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!keep(t)) continue;
-    mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
-    if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
-    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
-    ++kept;
-  }
-  mesh.tets.resize(kept), numbers.resize(kept);
-  if (!mesh.region.empty()) mesh.region.resize(kept);
-  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
+  std::vector<std::size_t> kept;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    if (keep(t)) kept.push_back(t);
+  const auto pick = [&kept](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
+    values.resize(kept.size());
+  };
+  pick(mesh.tets), pick(mesh.region), pick(mesh.filled), pick(numbers);
+  for (auto& [name, vectors] : mesh.tet_vectors) pick(vectors);
 }
 
 constexpr double sliver = 8;  // elements with a height ratio above this are improved

@@ -122,6 +122,7 @@ double SignedDistance::operator()(const Point& point, double bound) const {
   Eigen::BVMinimize(tree_->boxes, nearest);
   // The given bound was too small by rounding: search without one
   if (nearest.least > nearest.reach) return (*this)(point);
+  if (nearest.triangle < 0) return std::numeric_limits<double>::quiet_NaN();
   const Point& normal =
       tree_->normals[static_cast<std::size_t>(nearest.triangle)][nearest.closest.feature];
   const double d = std::sqrt(nearest.least);

@@ -18,7 +18,8 @@ class SignedDistance {
   explicit SignedDistance(TriangleSurface&&) = delete;
   ~SignedDistance();
 
-  /// Returns the signed distance of a point [m], below zero inside.
+  /// Returns the signed distance of a point [m], below zero inside; NaN for a point that is not
+  /// finite.
   /// @param bound  known upper bound of the unsigned distance, for a shorter search [m]
   double operator()(const Point& point,
                     double bound = std::numeric_limits<double>::infinity()) const;

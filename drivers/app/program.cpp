@@ -13,6 +13,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
+#include <plica/drivers/app/reference/reference.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 
@@ -290,8 +291,7 @@ class CommandLine {
           help + ": " + type_text);
     };
     MaterialOptions material;
-    OptionList list(add);
-    describe(list, material);
+    list_options(material, add);
     info->callback([this] {
       action_ = [this] {
         mesh_.kokkos = arguments_.kokkos;
@@ -345,9 +345,12 @@ class CommandLine {
 
   void add_list() {
     CLI::App* command = add("list", "list what scenes can choose from", [this] {
-      return family_.empty() ? list_families(arguments_.json) : list(family_, arguments_.json);
+      if (family_.empty()) return list_families(arguments_.json);
+      if (family_ != "reference") return list(family_, arguments_.json);
+      return write_reference(app_, arguments_);
     });
     command->add_option("FAMILY", family_, "what to list");
+    add_output(command, "out/reference");
     command->add_flag("--json", arguments_.json, "print JSON");
   }
 

@@ -41,8 +41,7 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
       carried_impulse_(zeros<Doubles<B>>("plica::contact.carried_impulse",
                                          static_cast<std::size_t>(6 * contact_->wrenches()))),
       work_(zeros<Doubles<B>>("plica::contact.work", 1)) {
-  const auto lend = [](auto& field) { field = lent(field); };
-  ContactRecords<B>::each_own(records_, lend), ContactRecords<B>::each_shared(records_, lend);
+  each_array(records_, [](auto& field) { field = lent(field); });
   if (implicit)
     product_ =
         zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
@@ -187,10 +186,12 @@ double ContactResponse<B>::energy(const Exec& exec, const LevelData<B>& level, d
 template <class B>
 double ContactResponse<B>::energy_found(const Exec& exec, const LevelData<B>& level,
                                         const State<B>& state, double time) {
-  keep(exec, aside_);
+  using Archive = Archive<B>;
+  Archive keep(Archive::Task::keep, aside_, exec), put_back(Archive::Task::put_back, aside_, exec);
+  name_kept(keep, exec, level);
   find(exec, level, state, time);
   const double found = energy(exec, level, time);
-  restore(exec, level, aside_);
+  name_kept(put_back, exec, level);
   return found;
 }
 
@@ -323,32 +324,7 @@ void ContactResponse<B>::add_matrix(const Exec& exec, const LevelData<B>& level,
                AddContactToMatrix<B>{level.surface, records_, static_cast<Real>(scale), A});
 }
 
-template <class B>
-std::size_t ContactResponse<B>::bytes() const {
-  std::size_t all = (product_.span() + free_.span() + answer_.span()) * sizeof(Real) +
-                    (search_ ? search_->bytes() : 0);
-  ContactRecords<B>::each_own(records_, [&](const auto& field) { all += fields::bytes_of(field); });
-  return all;
-}
-
 // --- Values that are carried from step to step ---------------------------------------------------
-
-template <class B>
-template <class Use>
-void ContactResponse<B>::each_carried(const Use& use) const {
-  const ContactRecords<B>& r = records_;
-  const auto flat = [](const auto& x) {
-    using Field = std::decay_t<decltype(x)>;
-    using Flat = std::conditional_t<std::is_same_v<typename Field::non_const_value_type, int>,
-                                    Indices<B>, Scalars<B>>;
-    return Flat(x.data(), x.span());
-  };
-  use("slots in use", r.near), use("surface points", flat(r.point)), use("laws", r.law_of),
-      use("partners", r.partner);
-  use("weights", flat(r.weight)), use("normals", flat(r.normal)), use("depths", r.depth),
-      use("ways", flat(r.way));
-  use("stretches", flat(r.stretch)), use("forces", flat(r.force));
-}
 
 template <class B>
 void ContactResponse<B>::reset_history(const Exec& exec) {
@@ -361,53 +337,36 @@ void ContactResponse<B>::reset_history(const Exec& exec) {
 }
 
 template <class B>
-void ContactResponse<B>::persist(Archive<B>& archive, const std::string& name) {
+void ContactResponse<B>::name_records(Archive<B>& archive, const std::string& name) const {
+  const ContactRecords<B>& r = records_;
+  archive.field(name + "slots in use", r.near), archive.field(name + "surface points", r.point);
+  archive.field(name + "laws", r.law_of), archive.field(name + "partners", r.partner);
+  archive.field(name + "weights", r.weight), archive.field(name + "normals", r.normal);
+  archive.field(name + "depths", r.depth), archive.field(name + "ways", r.way);
+  archive.field(name + "stretches", r.stretch), archive.field(name + "forces", r.force);
+}
+
+template <class B>
+void ContactResponse<B>::name_fields(Archive<B>& archive, const std::string& name) {
   archive.number(found_), archive.number(fresh_), archive.number(records_.span);
-  each_carried([&](const char* what, const auto& field) {
-    archive.field(name + "contact: " + what, field);
-  });
+  name_records(archive, name + "contact: ");
   archive.field(name + "contact: the list", records_.list.item);
   archive.field(name + "contact: its length", records_.list.count);
   archive.field(name + "contact: how much touches", records_.touching);
   archive.field(name + "contact: carried impulses", carried_impulse_);
   archive.field(name + "contact: friction's work", work_);
+  archive.owns(own_, maker_.used, maker_.summed, blocks_.view(), product_, free_, answer_, sums_,
+               impulse_);
+  if (search_) search_->name_fields(archive);
 }
 
 template <class B>
-void ContactResponse<B>::keep(const Exec& exec, Snapshot& to) const {
-  std::size_t i = 0, k = 0;
-  each_carried([&](const char*, const auto& field) {
-    using Field = std::decay_t<decltype(field)>;
-    auto& all = [&]() -> auto& {
-      if constexpr (std::is_same_v<Field, Indices<B>>)
-        return to.indices;
-      else
-        return to.reals;
-    }
-    ();
-    std::size_t& at = std::is_same_v<Field, Indices<B>> ? i : k;
-    if (all.size() <= at) all.push_back(zeros<Field>("plica::contact.kept", field.extent(0)));
-    copy(exec, all[at++], field);
-  });
-  if (to.work.extent(0) == 0) to.work = zeros<Doubles<B>>("plica::contact.kept_work", 1);
-  copy(exec, to.work, work_);
-  to.found = found_, to.fresh = fresh_;
-}
-
-template <class B>
-void ContactResponse<B>::restore(const Exec& exec, const LevelData<B>& level,
-                                 const Snapshot& from) {
-  std::size_t i = 0, k = 0;
-  each_carried([&](const char*, const auto& field) {
-    using Field = std::decay_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, Indices<B>>)
-      copy(exec, field, from.indices[i++]);
-    else
-      copy(exec, field, from.reals[k++]);
-  });
-  copy(exec, work_, from.work);
-  list_contacts<B>(exec, level.surface, records_, maker_);
-  found_ = from.found, fresh_ = from.fresh;
+void ContactResponse<B>::name_kept(Archive<B>& archive, const Exec& exec,
+                                   const LevelData<B>& level) {
+  name_records(archive, {});
+  archive.field({}, work_);
+  archive.number(found_), archive.number(fresh_);
+  if (archive.restoring()) list_contacts<B>(exec, level.surface, records_, maker_);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class ContactResponse<Backend<Real, Exec>>;

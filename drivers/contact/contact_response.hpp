@@ -129,27 +129,11 @@ class ContactResponse {
                   const BlockMatrix<B>& A) const;
 
   const ContactRecords<B>& records() const { return records_; }
-  std::size_t bytes() const;
-  /// Values that a step takes from the last: functions to forget, save, copy and restore them.
-  /// @{
+  /// Forgets what a step takes from the last.
   void reset_history(const Exec& exec);
-  void persist(Archive<B>& archive, const std::string& name);
-  struct Snapshot {
-    std::vector<Indices<B>> indices;
-    std::vector<Scalars<B>> reals;
-    Doubles<B> work;
-    double found = 0;
-    bool fresh = true;
-    void persist(Archive<B>& archive) {
-      for (const auto& field : indices) archive.field("kept contact", field);
-      for (const auto& field : reals) archive.field("kept contact", field);
-      archive.field("kept work of friction", work);
-      archive.number(found), archive.number(fresh);
-    }
-  };
-  void keep(const Exec& exec, Snapshot& to) const;
-  void restore(const Exec& exec, const LevelData<B>& level, const Snapshot& from);
-  /// @}
+  void name_fields(Archive<B>& archive, const std::string& name);
+  /// Names what a snapshot of the state needs. Where that is put back, lists the records again.
+  void name_kept(Archive<B>& archive, const Exec& exec, const LevelData<B>& level);
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
@@ -162,7 +146,7 @@ class ContactResponse {
   Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;
-  Snapshot aside_;               ///< copy of the last step's records, in energy_found()
+  KeptValues<B> aside_;          ///< copy of the last step's records, in energy_found()
   double part_ = 1, found_ = 0;  ///< found_: time of the state that the records are of [s]
   bool fresh_ = true;            ///< true: no last step is known
 
@@ -178,9 +162,7 @@ class ContactResponse {
                double factor = 1) const;
   ImplicitContact<B> at(const LevelData<B>& level, const State<B>& state, double ahead) const;
   ContactBalance read_balance(const Exec& exec) const;
-  /// Calls use(name, field) for each field that is carried from step to step.
-  template <class Use>
-  void each_carried(const Use& use) const;
+  void name_records(Archive<B>& archive, const std::string& name) const;
 };
 
 }  // namespace plica

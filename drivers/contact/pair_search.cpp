@@ -35,7 +35,7 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B
   own_.crossing = zeros<Indices<B>>("plica::pairs.crossing",
                                     2 * n * static_cast<std::size_t>(PairGrid<B>::most_crossings));
   grid_ = own_;
-  PairGrid<B>::each_own(grid_, [](auto& field) { field = lent(field); });
+  each_array(grid_, [](auto& field) { field = lent(field); });
 }
 
 template <class B>
@@ -78,13 +78,6 @@ void PairSearch<B>::make_grid(const Exec& exec, const ContactRecords<B>& records
                         SumBefore<B>{grid_.filled, grid_.first, buckets, stale});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
   where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{corner, grid_});
-}
-
-template <class B>
-std::size_t PairSearch<B>::bytes() const {
-  std::size_t all = 0;
-  PairGrid<B>::each_own(own_, [&](const auto& field) { all += fields::bytes_of(field); });
-  return all;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class PairSearch<Backend<Real, Exec>>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/archive.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
 
 namespace plica {
@@ -16,7 +17,7 @@ class PairSearch {
   /// Fills the slots of pairs at a state. `fresh`: no last step is known.
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
             const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const;
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const { archive.owns(own_, blocks_.view()); }
 
  private:
   PairGrid<B> own_, grid_;  ///< own_ owns the arrays; grid_ is the copy for kernels

@@ -28,7 +28,7 @@ class RegrowSchedule {
   long count() const { return count_; }
 
   template <class Archive>
-  void persist(Archive& archive) {
+  void name_fields(Archive& archive) {
     archive.number(since_), archive.number(wait_), archive.number(count_), archive.number(lasting_);
   }
 

@@ -83,10 +83,10 @@ class SharedStep : public Stepper<B> {
     return {{"substep_halvings", cuts_}, {"substeps_regained", regaining_.count()}};
   }
 
-  void persist(Archive<B>& archive) override {
+  void name_fields(Archive<B>& archive) override {
     if (!shortens_) return;
     archive.number(halvings_), archive.number(cuts_), archive.number(calm_);
-    regaining_.persist(archive);
+    regaining_.name_fields(archive);
   }
 
  protected:

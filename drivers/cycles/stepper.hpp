@@ -38,7 +38,7 @@ struct StepperSetup {
 ///   step     macro steps
 ///   check    lost_stability(), which may be true before the state is bad; repair() makes the
 ///            next steps stable, and regrow() takes that back
-///   report   counters(), bytes(); persist() for checkpoints
+///   report   counters(); name_fields() for checkpoints and the memory
 template <class B>
 class Stepper {
  public:
@@ -76,11 +76,9 @@ class Stepper {
   virtual int parts() const { return 1; }
 
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Returns the size of the stepper's own device memory [bytes].
-  virtual std::size_t bytes() const { return 0; }
-  /// Passes to the archive all that the stepper carries from one macro step to the next.
+  /// Names the stepper's arrays and what it carries from one macro step to the next.
   /// The levels' states are not among these.
-  virtual void persist(Archive<B>&) {}
+  virtual void name_fields(Archive<B>&) {}
 };
 
 }  // namespace plica

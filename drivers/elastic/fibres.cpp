@@ -263,6 +263,21 @@ void flows_to_fields(Body& body, const std::string& field) {
   for (FibreOptions* o : flows) o->from.reset(), o->to.reset(), o->field = field;
 }
 
+void fields_to_levels(Body& body) {
+  const TetMesh& finest = body.levels.front();
+  if (finest.tet_vectors.empty() || body.levels.size() == 1) return;
+  const TetLocator locator(finest);
+  for (std::size_t i = 1; i < body.levels.size(); ++i) {
+    TetMesh& mesh = body.levels[i];
+    for (const auto& [name, vectors] : finest.tet_vectors) {
+      const auto [own, is_new] = mesh.tet_vectors.try_emplace(name);
+      for (std::size_t t = 0; is_new && t < mesh.tets.size(); ++t)
+        own->second.push_back(
+            vectors[static_cast<std::size_t>(locator.locate(centroid(mesh, t)).tet)]);
+    }
+  }
+}
+
 template <class B>
 Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>& of_tets) {
   const auto element = on_host(patches.element);

@@ -33,6 +33,10 @@ std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int
 /// `field`: its name. The sets are then not needed any more.
 void flows_to_fields(Body& body, const std::string& field);
 
+/// Gives every level's mesh the fields of vectors that only level 0 has: those of the nearest
+/// tetrahedra. A level can then be used without level 0.
+void fields_to_levels(Body& body);
+
 /// Returns true where a body, or a region of it, has fibres.
 bool has_fibres(const Body& body);
 

@@ -155,33 +155,12 @@ void Viscosity<B>::take_share(const Exec& exec, double t) {
 }
 
 template <class B>
-void Viscosity<B>::keep(const Exec& exec, const LevelData<B>& level, Snapshot& to) const {
-  if (to.memory.extent(0) == 0)
-    to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
-  copy(exec, to.memory, level.stress.memory);
-  to.time = time_;
-}
-
-template <class B>
-void Viscosity<B>::restore(const Exec& exec, const LevelData<B>& level, const Snapshot& from) {
-  copy(exec, level.stress.memory, from.memory);
-  set_time(from.time);
-}
-
-template <class B>
-void Viscosity<B>::persist(Archive<B>& archive, const LevelData<B>& level,
-                           const std::string& name) {
+void Viscosity<B>::name_fields(Archive<B>& archive, const LevelData<B>& level,
+                               const std::string& name) {
   archive.field(name + "memory of stress", level.stress.memory);
   archive.number(time_);
+  archive.owns(level.stress, steps_, constants_, set_region_, whole_, half_, isochoric_);
   if (archive.restoring()) looked_ = none;
-}
-
-template <class B>
-std::size_t Viscosity<B>::bytes(const LevelData<B>& level) const {
-  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.relaxed.extent(0) +
-                              whole_.extent(0) + half_.extent(0) + isochoric_.extent(0) +
-                              level.stress.region.extent(0);
-  return numbers * sizeof(Real);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Viscosity<Backend<Real, Exec>>;

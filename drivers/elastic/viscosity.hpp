@@ -42,15 +42,7 @@ class Viscosity {
   /// Sets the time of the memory [s].
   void set_time(double time) { time_ = time, looked_ = none; }
 
-  /// Snapshot of the values that are carried from step to step.
-  struct Snapshot {
-    Scalars<B> memory;
-    double time = 0;
-  };
-  void keep(const Exec&, const LevelData<B>&, Snapshot& to) const;
-  void restore(const Exec&, const LevelData<B>&, const Snapshot& from);
-  void persist(Archive<B>& archive, const LevelData<B>& level, const std::string& name);
-  std::size_t bytes(const LevelData<B>& level) const;
+  void name_fields(Archive<B>& archive, const LevelData<B>& level, const std::string& name);
 
  private:
   using Real = typename B::Real;

@@ -18,8 +18,6 @@ class Integrator {
   /// every step.
   virtual void advance(Level<B>& level, double time, double h, int steps) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Returns the size of the integrator's own device memory [bytes].
-  virtual std::size_t bytes() const { return 0; }
   /// Returns the largest part of its forces that a stage of the last advance() left unbalanced. For
   /// a stage of one linear solve it is the relative residual of that; 0 where there are none.
   virtual double residual() const { return 0; }
@@ -34,8 +32,8 @@ class Integrator {
   /// Forgets what is carried from earlier steps, which does not belong to a state that was
   /// replaced.
   virtual void reset_history() {}
-  /// Names to the archive what is carried from one macro step to the next, to save and restore it.
-  virtual void persist(Archive<B>&) {}
+  /// Names the integrator's arrays and what it carries from one macro step to the next.
+  virtual void name_fields(Archive<B>&) {}
 };
 
 }  // namespace plica

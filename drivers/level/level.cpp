@@ -244,14 +244,14 @@ void Level<B>::reset_history() {
 }
 
 template <class B>
-void Level<B>::persist(Archive<B>& archive, const std::string& name) {
+void Level<B>::name_fields(Archive<B>& archive, const std::string& name) {
   archive.state(name + "state", this->state);
   archive.state(name + "start", this->start);
   archive.state(name + "previous", this->previous);
   archive.number(evaluations_);
-  if (contact_) response_.persist(archive, name);
-  if (viscosity) viscosity->persist(archive, *this, name);
-  integrator->persist(archive);
+  if (contact_) response_.name_fields(archive, name);
+  if (viscosity) viscosity->name_fields(archive, *this, name);
+  integrator->name_fields(archive);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Level<Backend<Real, Exec>>;

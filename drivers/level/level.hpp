@@ -150,7 +150,7 @@ class Level : public LevelData<B> {
   void reset_history();
   /// Names to the archive what the level and its integrator carry from one macro step to the next.
   /// `name`: "level 0's ".
-  void persist(Archive<B>& archive, const std::string& name);
+  void name_fields(Archive<B>& archive, const std::string& name);
   /// Begins a macro step: numbers evaluations from 1 again, for the element flags, and sets the
   /// impulses to zero. `part`: its length over that of a whole macro step.
   void begin_macro_step(double part = 1) {

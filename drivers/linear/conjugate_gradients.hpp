@@ -85,17 +85,15 @@ struct ConjugateGradients {
       if (!preconditioner_) return {};
       return {{"preconditioner_fits", fits_}, {"preconditioner_given_up", preconditions() ? 0 : 1}};
     }
-    std::size_t bytes() const override {
-      return system_.bytes() + krylov_.bytes() + (last_ ? last_->bytes() : 0) +
-             (preconditioner_ ? preconditioner_->bytes() + bytes_of_views(rest_) : 0);
-    }
-    void persist(Archive<B>& archive) override {
-      if (last_) last_->persist(archive);
+    void name_fields(Archive<B>& archive) override {
+      system_.name_fields(archive), krylov_.name_fields(archive);
+      if (last_) last_->name_fields(archive);
       if (!preconditioner_) return;
       for (long* count : {&fitted_, &fits_, &given_up_}) archive.number(*count);
       for (double* value : {&a_, &b_, &per_decade_, &spent_}) archive.number(*value);
-      preconditioner_->persist(archive);
-      restored_ = archive.restoring();
+      preconditioner_->name_fields(archive);
+      archive.owns(rest_);
+      restored_ = restored_ || archive.restoring();
     }
 
    private:

@@ -70,13 +70,6 @@ void CycleProduct<B>::apply(const Exec& exec, const Vectors<F>& p, const To& q) 
                               static_cast<float>(weights_.b), alone ? Vectors<B>() : beside_});
 }
 
-template <class B>
-std::size_t CycleProduct<B>::bytes() const {
-  const NodalWork<F>& work = level_.nodal;
-  return bytes_of_views(level_.model.mass, level_.model.damping.of_vertex, level_.partial,
-                        work.near, work.records, work.gradient, u_, p_, beside_);
-}
-
 #define PLICA_INSTANTIATE(Real, Exec)                                                              \
   template class CycleProduct<Backend<Real, Exec>>;                                                \
   template void CycleProduct<Backend<Real, Exec>>::apply(                                          \

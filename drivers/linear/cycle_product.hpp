@@ -29,7 +29,10 @@ class CycleProduct {
   template <class To>
   void apply(const Exec& exec, const Vectors<F>& p, const To& q) const;
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const {
+    archive.owns(level_.model.mass, level_.model.damping, level_.nodal, level_.partial, u_, p_,
+                 beside_);
+  }
 
  private:
   LevelData<F> level_;

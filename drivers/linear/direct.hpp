@@ -57,10 +57,9 @@ struct Direct {
     std::map<std::string, long> counters() const override {
       return {{"projected_systems", projected_}};
     }
-    void persist(Archive<B>& archive) override { archive.number(projected_); }
-    std::size_t bytes() const override {
-      return system_.bytes() + static_cast<std::size_t>(nonzeros_ + lower_.nonZeros()) *
-                                   (sizeof(double) + sizeof(int));
+    void name_fields(Archive<B>& archive) override {
+      archive.number(projected_);
+      system_.name_fields(archive);
     }
 
    private:
@@ -71,7 +70,6 @@ struct Direct {
     /// [values of lower_] block of the matrix that has the value, and the number in the block
     std::vector<std::pair<int, int>> entries_;
     Eigen::SimplicialLDLT<Matrix> factor_;
-    Eigen::Index nonzeros_ = 0;
 
     /// Returns true where a row has more than its own block.
     /// A vertex whose motion is given has only its own block, and its column is left out.
@@ -92,7 +90,6 @@ struct Direct {
       for (const auto& [block, entry] : entries_)
         *value++ = static_cast<double>(A.value(block, entry));
       factor_.factorize(lower_);
-      nonzeros_ = factor_.matrixL().nestedExpression().nonZeros();
     }
 
     void analyse(const BlockMatrix<B>& A) {

@@ -33,15 +33,10 @@ void LastSolutions<B>::add(const Exec& exec, const Vectors<B>& x) {
 }
 
 template <class B>
-std::size_t LastSolutions<B>::bytes() const {
-  return bytes_of_views(space_.products) +
-         SolutionSpace<B>::size * (bytes_of_views(space_.w[0]) + bytes_of_views(space_.q[0]));
-}
-
-template <class B>
-void LastSolutions<B>::persist(Archive<B>& archive) {
+void LastSolutions<B>::name_fields(Archive<B>& archive) {
   archive.number(count_);
   for (const auto& w : space_.w) archive.field("a last solution", w);
+  archive.owns(space_.q, space_.products);
 }
 
 template <class B>
@@ -116,11 +111,6 @@ KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system,
     out.relative_residual = std::numeric_limits<double>::infinity();
   }
   return out;
-}
-
-template <class B>
-std::size_t Krylov<B>::bytes() const {
-  return bytes_of_views(z_, p_, q_, scalars_, sums_.view());
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                \

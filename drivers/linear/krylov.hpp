@@ -23,8 +23,7 @@ class LastSolutions {
   bool any() const { return count_ > 0; }
   /// Stores a solution in place of the oldest one.
   void add(const Exec& exec, const Vectors<B>& x);
-  std::size_t bytes() const;
-  void persist(Archive<B>& archive);
+  void name_fields(Archive<B>& archive);
 
  private:
   SolutionSpace<B> space_;
@@ -53,7 +52,7 @@ class Krylov {
                       const Preconditioner<B>* preconditioner, const LastSolutions<B>* last,
                       const ImplicitOptions& options, const Vectors<B>& r,
                       const Vectors<B>& x) const;
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const { archive.owns(z_, p_, q_, scalars_, sums_.view()); }
 
  private:
   Vectors<B> z_, p_, q_;

@@ -55,9 +55,8 @@ class LinearSolver {
   /// work.
   virtual bool converges() const { return true; }
   virtual std::map<std::string, long> counters() const { return {}; }
-  /// Returns the size of the solver's own device memory [bytes].
-  virtual std::size_t bytes() const = 0;
-  virtual void persist(Archive<B>&) {}
+  /// Names the solver's arrays and what it carries from one macro step to the next.
+  virtual void name_fields(Archive<B>&) = 0;
 };
 
 }  // namespace plica

@@ -14,7 +14,7 @@ namespace plica {
 
 namespace {
 
-// maximum vertices at which a factorisation is faster: cmake/docs/solvers.md
+// maximum vertices at which a factorisation is faster: cmake/docs/results/solvers.md
 constexpr std::size_t most_direct = 200;
 constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix pays
 constexpr std::size_t fewest_coarsened = 600;  // minimum vertices of one mesh for multigrid
@@ -22,7 +22,8 @@ constexpr std::size_t fewest_coarsened = 600;  // minimum vertices of one mesh f
 constexpr std::size_t most_in_coarsest = 300;
 constexpr double multigrid_reach = 1.3;
 // Macro step over the critical step from which multigrid over spaces pays: for systems that are
-// solved exactly, and for those of Newton's method, which are not. See cmake/docs/levels.md
+// solved exactly, and for those of Newton's method, which are not. See
+// cmake/docs/explanation/coarse_levels.md
 constexpr double long_step = 40, long_newton_step = 100;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
@@ -173,7 +174,7 @@ std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& par
         "memory; "
         "expected conjugate_gradients or auto");
   std::unique_ptr<LinearSolver<B>> made;
-  LinearSolvers::visit(parts.options.solver, [&](auto kind) {
+  LinearSolvers::require("linear solver", parts.options.solver, [&](auto kind) {
     made = std::make_unique<typename decltype(kind)::template Of<B>>(level, parts);
   });
   return made;

@@ -19,7 +19,8 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
 std::string describe(const LinearSolverParts& parts);
 
 /// Makes the linear solver of a level.
-/// Throws InputError for a direct solver where the host cannot read device memory.
+/// Throws InputError for a name that is not in the list, with the nearest one, and for a direct
+/// solver where the host cannot read device memory.
 template <class B>
 std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& parts,
                                                     const LevelData<B>& level);

@@ -256,31 +256,12 @@ void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>
 }
 
 template <class B>
-void Multigrid<B>::persist(Archive<B>& archive) {
+void Multigrid<B>::name_fields(Archive<B>& archive) {
   if (finest_) archive.number(largest_);
   archive.field("the preconditioner's matrix", grids_.front().A.value);
   archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal);
-}
-
-template <class B>
-std::size_t Multigrid<B>::bytes() const {
-  std::size_t total =
-      bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_) +
-      4 * bytes_of_views(lanczos_[0]) + bytes_of_views(p_);
-  for (const Grid& grid : grids_) {
-    const Chebyshev<F>& on = grid.smoother;
-    total += bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex,
-                            on.A.column, on.A.word, on.A.scale, on.inverse_diagonal, on.largest,
-                            on.r, on.x, on.product, grid.d, grid.e) +
-             bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
-             bytes_of_views(grid.map.right.first, grid.map.right.block, grid.map.right.weight,
-                            grid.map.left.first, grid.map.left.block, grid.map.left.weight,
-                            grid.map.between) +
-             (&grid == &grids_.front()
-                  ? 0
-                  : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal, grid.A.place));
-  }
-  return total;
+  archive.owns(grids_, p_, coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_,
+               coarsest_x_, lanczos_, sums_.view(), scalars_);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Multigrid<Backend<Real, Exec>>;

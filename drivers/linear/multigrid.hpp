@@ -25,9 +25,8 @@ class Preconditioner {
   virtual void fit(const Exec& exec, const BlockMatrix<B>& A,
                    const Blocks<B>& inverse_diagonal) = 0;
   virtual void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const = 0;
-  virtual std::size_t bytes() const = 0;
-  /// Passes to the archive what the preconditioner was fitted to; after a restore call refit().
-  virtual void persist(Archive<B>& archive) = 0;
+  /// Names its arrays and what it was fitted to; after a restore call refit().
+  virtual void name_fields(Archive<B>& archive) = 0;
   virtual void refit(const Exec& exec) = 0;
 };
 
@@ -95,8 +94,7 @@ class Multigrid final : public Preconditioner<B> {
 
   void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) override;
   void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const override;
-  std::size_t bytes() const override;
-  void persist(Archive<B>& archive) override;
+  void name_fields(Archive<B>& archive) override;
   void refit(const Exec& exec) override;
 
  private:

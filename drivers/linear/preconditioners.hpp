@@ -50,11 +50,13 @@ struct MultigridCycle {
 /// All preconditioners. To add one, write a struct with the same members and its name here.
 using Preconditioners = TypeList<BlockJacobi, ChebyshevPolynomial, MultigridCycle>;
 
+/// Makes a preconditioner. Throws InputError for a name that is not in the list, with the nearest
+/// one.
 template <class B>
 std::unique_ptr<Preconditioner<B>> make_preconditioner(const LinearSolverParts& parts,
                                                        StageSystem<B>& system) {
   std::unique_ptr<Preconditioner<B>> made;
-  Preconditioners::visit(parts.options.preconditioner, [&](auto kind) {
+  Preconditioners::require("preconditioner", parts.options.preconditioner, [&](auto kind) {
     made = decltype(kind)::template make<B>(parts, system);
   });
   return made;

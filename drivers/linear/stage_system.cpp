@@ -114,16 +114,6 @@ void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) c
     for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);
 }
 
-template <class B>
-std::size_t StageSystem<B>::bytes() const {
-  const BlockMatrix<B>& A = pattern_.matrix;
-  const PatchPairs<B>& P = pattern_.pairs;
-  return (cycle_product_ ? cycle_product_->bytes() : 0) +
-         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column,
-                        A.diagonal, A.place, A.value, P.first_pair, P.first_shared, P.first_slot,
-                        P.first_turned, P.slot, P.place, P.first_share, P.shared_place);
-}
-
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

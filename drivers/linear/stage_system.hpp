@@ -48,7 +48,10 @@ class StageSystem {
   /// Returns true where a product needs the matrix and nothing else.
   bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
   int rows() const { return level_->model.vertices; }
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const {
+    archive.owns(pattern_, shares_, inverse_diagonal_, blocks_of_matrix_);
+    if (cycle_product_) cycle_product_->name_fields(archive);
+  }
 
  private:
   bool nodal_, assembled_, ready_ = false;  ///< ready_: the matrix is that of this stage

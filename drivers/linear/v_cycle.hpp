@@ -60,15 +60,12 @@ struct VCycleSolver {
     std::map<std::string, long> counters() const override {
       return {{"preconditioner_fits", fits_}};
     }
-    std::size_t bytes() const override {
-      return system_.bytes() + cycle_->bytes() +
-             (residual_.span() + scaled_.span()) * sizeof(typename B::Real);
-    }
-    void persist(Archive<B>& archive) override {
+    void name_fields(Archive<B>& archive) override {
       for (long* count : {&fitted_, &fits_}) archive.number(*count);
       for (double* value : {&a_, &b_, &first_}) archive.number(*value);
-      cycle_->persist(archive);
-      restored_ = archive.restoring();
+      cycle_->name_fields(archive), system_.name_fields(archive);
+      archive.owns(residual_, scaled_, squares_, sums_.view());
+      restored_ = restored_ || archive.restoring();
     }
 
    private:

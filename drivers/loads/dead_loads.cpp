@@ -10,13 +10,6 @@ void DeadLoads<B>::add_force(const Exec& exec, const State<B>&, double time, con
   for (const Load<B>& load : loads_) add_load<B>(exec, load, load_factor(load.course, time), f);
 }
 
-template <class B>
-std::size_t DeadLoads<B>::bytes() const {
-  std::size_t sum = 0;
-  for (const Load<B>& load : loads_) sum += bytes_of_views(load.vertex, load.force);
-  return sum;
-}
-
 #define PLICA_INSTANTIATE(Real, Exec) template class DeadLoads<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -13,7 +13,9 @@ class DeadLoads final : public ForceTerm<B> {
   explicit DeadLoads(std::vector<Load<B>> loads) : loads_(std::move(loads)) {}
 
   void add_force(const Exec& exec, const State<B>& at, double time, const Vectors<B>& f) override;
-  std::size_t bytes() const override;
+  void name_fields(Archive<B>& archive) const override {
+    for (const Load<B>& load : loads_) archive.owns(load.vertex, load.force);
+  }
 
  private:
   std::vector<Load<B>> loads_;

@@ -141,11 +141,10 @@ std::vector<CavityState> FollowerPressures<B>::cavities(const Exec& exec, const 
 }
 
 template <class B>
-std::size_t FollowerPressures<B>::bytes() const {
-  std::size_t sum = 0;
+void FollowerPressures<B>::name_fields(Archive<B>& archive) const {
   for (const FollowerLoad<B>& load : loads_)
-    sum += bytes_of_views(load.vertex, load.rest, load.first, load.second, load.third);
-  return sum;
+    archive.owns(load.vertex, load.rest, load.first, load.second, load.third, load.volume);
+  archive.owns(volumes_.view(), rate_);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class FollowerPressures<Backend<Real, Exec>>;

@@ -26,7 +26,7 @@ class FollowerPressures final : public ForceTerm<B> {
   double squared_frequency(const LevelData<B>& level) const override;
   std::vector<CavityState> cavities(const Exec& exec, const State<B>& at,
                                     double time) const override;
-  std::size_t bytes() const override;
+  void name_fields(Archive<B>& archive) const override;
 
  private:
   std::vector<FollowerLoad<B>> loads_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/archive.hpp>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level_data.hpp>
 #include <plica/core/load.hpp>
@@ -49,8 +50,8 @@ class ForceTerm {
                                             double /*time*/) const {
     return {};
   }
-  /// Returns the device memory of its own [bytes].
-  virtual std::size_t bytes() const = 0;
+  /// Names the term's arrays.
+  virtual void name_fields(Archive<B>& archive) const = 0;
 };
 
 }  // namespace plica

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads what a run of plica wrote, with NumPy alone."""
+import base64
 import csv
 import json
 import pathlib
-import re
 import xml.etree.ElementTree
 
 import numpy
@@ -12,19 +12,18 @@ TYPES = {"Float64": "f8", "Float32": "f4", "Int32": "i4", "Int64": "i8", "UInt8"
 
 
 def read_vtu(path):
-    """Every array of a .vtu file as plica writes it (appended raw), by name."""
-    content = pathlib.Path(path).read_bytes()
-    start = content.index(b"_", content.index(b'<AppendedData encoding="raw">')) + 1
-    order = "<" if b'byte_order="LittleEndian"' in content[:200] else ">"
+    """Every array of a .vtu file as plica writes it (appended in base64), by name."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    appended = root.find("AppendedData").text.strip()[1:]
+    order = "<" if root.get("byte_order") == "LittleEndian" else ">"
     arrays = {}
-    for tag in re.findall(rb"<DataArray [^>]*format=\"appended\"[^>]*>", content[:start]):
-        attribute = {key.decode(): value.decode() for key, value in re.findall(rb'(\w+)="([^"]*)"', tag)}
-        at = start + int(attribute["offset"])
-        size = int(numpy.frombuffer(content, order + "u8", 1, at)[0])
-        dtype = numpy.dtype(order + TYPES[attribute["type"]])
-        values = numpy.frombuffer(content, dtype, size // dtype.itemsize, at + 8)
-        columns = int(attribute["NumberOfComponents"])
-        arrays[attribute["Name"]] = values.reshape(-1, columns) if columns > 1 else values
+    for tag in root.iterfind(".//DataArray[@format='appended']"):
+        at = int(tag.get("offset"))
+        size = int(numpy.frombuffer(base64.b64decode(appended[at:at + 12]), order + "u8", 1)[0])
+        content = base64.b64decode(appended[at:at + (8 + size + 2) // 3 * 4])
+        values = numpy.frombuffer(content, order + TYPES[tag.get("type")], offset=8)
+        columns = int(tag.get("NumberOfComponents"))
+        arrays[tag.get("Name")] = values.reshape(-1, columns) if columns > 1 else values
     return arrays
 
 

@@ -38,9 +38,7 @@ class SimulationOf final : public AnySimulation {
       : scene_(std::move(scene)),
         choice_(choice),
         simulation_(with_choice(scene_->problem, choice)),
-        surface_points_(simulation_.surface_positions().size()) {
-    simulation_.share_cores();
-  }
+        surface_points_(simulation_.surface_positions().size()) {}
 
   std::optional<Diagnosis> advance(double until, long at_most,
                                    const std::function<void()>& between) override {

@@ -194,7 +194,7 @@ class HierarchyBuilder {
   /// Returns what a level of nodal elements gets to precondition implicit steps. Products with the
   /// elements' own tangent (rows in float) need a third of the iterations in thick bodies and two
   /// thirds in thin ones; each iteration takes twice as long. In contact they need a sixth, and
-  /// half of them where pressures are smoothed: cmake/docs/solvers.md.
+  /// half of them where pressures are smoothed: cmake/docs/results/solvers.md.
   BesideNodal beside_nodal(std::size_t i) const {
     constexpr double thick = 8;  // elements across
     if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))

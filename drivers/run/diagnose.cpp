@@ -5,6 +5,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/registry.hpp>
 
 namespace plica {
 
@@ -75,16 +76,21 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
 
 }  // namespace
 
+std::vector<Choice> diagnosis_kinds() {
+  return {{"non_finite", "a value is not finite"},
+          {"inverted", "an element is inside out"},
+          {"energy", "the body has more kinetic energy than was put in"},
+          {"speed", "a vertex leaves the body faster than its elements can follow"},
+          {"contact", "a point is deeper in an obstacle than the body is large"},
+          {"solver", "the solver failed"},
+          {"stability", "the cycle lost its stability"}};
+}
+
 std::string Diagnosis::text() const {
-  const char* what =
-      kind == "inverted"    ? (element < 0 ? "the elements around a vertex are inside out"
-                                           : "an element is inside out")
-      : kind == "energy"    ? "the body has more kinetic energy than was put in"
-      : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
-      : kind == "contact"   ? "a point is deeper in an obstacle than the body is large"
-      : kind == "solver"    ? "the solver failed"
-      : kind == "stability" ? "the cycle lost its stability"
-                            : "a value is not finite";
+  std::string what = "a value is not finite";
+  for (const Choice& one : diagnosis_kinds())
+    if (one.name == kind) what = one.summary;
+  if (kind == "inverted" && element < 0) what = "the elements around a vertex are inside out";
   std::string all = plica::text(what, ": level ", level);
   if (element >= 0) all += plica::text(", element ", element);
   if (!region.empty()) all += plica::text(" (region ", region, ")");

@@ -49,9 +49,9 @@ class EnergyBudget {
 
   /// Returns the numbers from which restore() continues.
   std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, surplus_, at_}; }
-  /// Continues from saved numbers; ignores a list that is too short.
+  /// Continues from saved numbers. Throws InputError for another number of them.
   void restore(const std::vector<double>& saved) {
-    if (saved.size() < 5) return;
+    expect_saved("the energy budget", saved.size(), 5);
     looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]),
     surplus_ = saved[3], at_ = saved[4];
   }
@@ -97,11 +97,12 @@ class ObstacleWork {
     for (Moving& one : moving_) move(simulation, simulation.tools(), one);
   }
 
-  /// Adds the work of the last macro step. To be called after every one.
+  /// Adds the work of the last macro step, or of the shorter one at the end of a run. To be called
+  /// after every one.
   void step(const Simulation<B>& simulation) {
     if (moving_.empty()) return;
     known_ = known_ && cuts_of(simulation.counters()) == 0;
-    const std::vector<Wrench> wrenches = simulation.wrenches();
+    const std::vector<Wrench> wrenches = simulation.wrenches_of_last_step();
     const std::vector<ToolState> tools = simulation.tools();
     for (Moving& one : moving_) {
       const Moving before = one;
@@ -115,7 +116,8 @@ class ObstacleWork {
 
   void restore(double done, bool known) { done_ = done, known_ = known; }
   double done() const { return done_; }
-  /// Returns whether no step was taken again; wrenches of such a step are of its last part only.
+  /// Returns whether the stepper has never cut its own steps. Macro steps are then taken again
+  /// whose work was added already.
   bool known() const { return known_; }
 
  private:

@@ -138,6 +138,7 @@ class Joiner {
 
   void add(const std::string& name, Body body) {
     flows_to_fields(body, "fibres of " + name);
+    fields_to_levels(body);
     const Box box = bounding_box(body.levels.front().vertices);
     const Point middle = 0.5 * (box.min + box.max),
                 shift = body.initial.position.value_or(middle) - middle;

@@ -7,48 +7,6 @@ namespace plica {
 
 namespace {
 
-template <class... Views>
-std::size_t bytes(const Views&... views) {
-  return ((views.span() * sizeof(*views.data())) + ... + 0);
-}
-template <class B>
-std::size_t bytes_of(const Transfer<B>& t) {
-  return bytes(t.target, t.source, t.weight);
-}
-template <class B>
-std::size_t bytes_of(const Restriction<B>& r) {
-  return bytes(r.first, r.source, r.weight, r.average);
-}
-template <class B>
-std::size_t bytes_of(const State<B>& s) {
-  return bytes(s.u, s.v);
-}
-template <class B>
-std::size_t bytes_of(const Patches<B>& p) {
-  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.fibres,
-               p.summed, p.first_sum, p.first_slot, p.slot, p.shares.first, p.shares.row,
-               p.element);
-}
-template <class B>
-std::size_t bytes_of(const NodalRows<B>& r) {
-  return bytes(r.first, r.region, r.vertex, r.volume, r.inverse_volume, r.neighbour, r.gradient,
-               r.coupling, r.smoothing, r.first_surface, r.surface_neighbour, r.surface_gradient,
-               r.constants, r.fibres, r.shares.first, r.shares.row);
-}
-template <class B>
-std::size_t bytes_of(const NodalWork<B>& w) {
-  return bytes(w.near, w.records, w.ratio, w.pressure, w.gradient);
-}
-template <class B>
-std::size_t bytes_of(const EmbeddedSurface<B>& s) {
-  return bytes(s.rest, s.vertex, s.first, s.point, s.weight) + bytes_of(s.embedding);
-}
-
-template <class B>
-std::size_t bytes_of(const Attachments<B>& a) {
-  return bytes(a.attachment, a.triangle, a.weight);
-}
-
 std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
@@ -84,12 +42,12 @@ std::string viscous_parts(const Body& body) {
 
 template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built) {
-  const auto sum = [&](auto of_level) {
-    std::size_t total = 0;
-    for (const auto& part : built.hierarchy->levels) total += of_level(part);
-    return total;
-  };
   using L = Level<B>;
+  Archive<B> archive;  // counts an array once, in the first part that has it
+  const auto sum = [&](auto of_level) {
+    for (L& level : built.hierarchy->levels) of_level(level);
+    return archive.measured();
+  };
   std::vector<Part> parts;
   const auto add = [&](const std::string& name, bool in, const std::string& yes,
                        const std::string& no, std::size_t size) {
@@ -115,72 +73,70 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const auto turning = std::ranges::count_if(
       problem.contact.obstacles, [](const ObstacleOptions& o) { return o.turn.has_value(); });
   if (turning > 0) touched += ", " + std::to_string(turning) + " of them turning";
-  const std::size_t variations =
-      sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
-  const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
-  const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.word); });
+  const std::size_t variations = sum([&](L& l) { archive.owns(l.start, l.previous); });
+  const std::size_t limits = sum([&](L& l) { archive.owns(l.drift_limit); });
+  const std::size_t flags = sum([&](L& l) { archive.owns(l.flags); });
+  const std::size_t stiffness = sum([&](L& l) {
+    archive.owns(l.model.patches.damping, l.model.rows.damping, l.model.float_rows.damping);
+  });
 
   std::string kinds;
   for (std::size_t i = 0; i < levels; ++i)
     kinds += std::string(i ? ", " : "") + name_of(element_of(body, i));
-  add("elastic elements", true, body.material.model + "; " + kinds, "", sum([](const L& l) {
-        return bytes_of(l.model.patches) + bytes_of(l.model.rows) + bytes_of(l.model.float_rows) +
-               bytes_of(l.nodal) + bytes(l.partial);
+  add("elastic elements", true, body.material.model + "; " + kinds, "", sum([&](L& l) {
+        archive.owns(l.model.patches, l.model.rows, l.model.float_rows, l.nodal, l.partial);
       }));
-  add("state, mass and force", true, counted(levels, "level"), "", sum([](const L& l) {
-        return bytes_of(l.state) + bytes(l.model.mass, l.model.inverse_mass, l.f);
-      }));
+  add("state, mass and force", true, counted(levels, "level"), "",
+      sum([&](L& l) { archive.owns(l.state, l.model.mass, l.model.inverse_mass, l.f); }));
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
   add("mass damping", damps_by_mass(body), "body.damping.mass", "zero",
-      sum([](const L& l) { return bytes(l.model.damping.of_vertex); }));
+      sum([&](L& l) { archive.owns(l.model.damping); }));
   add("stiffness damping", damps_by_stiffness(body),
-      "body.damping.stiffness: a stress of the strain rate with every force", "zero",
-      sum([](const L& l) { return bytes(l.model.patches.damping); }));
+      "body.damping.stiffness: a stress of the strain rate with every force", "zero", stiffness);
   add("viscosity", is_viscous(body), viscous_parts(body),
-      "neither body.material nor a region has prony",
-      sum([](const L& l) { return l.viscosity ? l.viscosity->bytes(l) : 0; }));
+      "neither body.material nor a region has prony", sum([&](L& l) {
+        if (l.viscosity) l.viscosity->name_fields(archive, l, {});
+      }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"),
-      "none asked for", sum([](const L& l) {
-        const auto& p = l.prescribed;
-        return bytes(p.vertex, p.path, p.paths, p.knots);
-      }));
+      "none asked for", sum([&](L& l) { archive.owns(l.prescribed); }));
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for",
-      sum([](const L& l) {
-        std::size_t total = 0;
-        for (const auto& term : l.terms) total += term->bytes();
-        return total;
+      sum([&](L& l) {
+        for (const auto& term : l.terms) term->name_fields(archive);
       }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,
       levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level",
-      sum([](const L& l) {
-        return bytes_of(l.from_finer) + bytes_of(l.to_finer) + bytes_of(l.adjoint);
-      }));
+      sum([&](L& l) { archive.owns(l.from_finer, l.to_finer, l.adjoint); }));
   add("variation mapping", variations > 0, "cycle " + problem.integration.cycle,
       "not in cycle " + problem.integration.cycle, variations);
   add("switched mapping", limits > 0, "switch_threshold",
       "not in cycle " + problem.integration.cycle, limits);
-  add("hierarchical inverse mass", built.stepper->bytes() > 0, "cycle " + problem.integration.cycle,
-      "not in cycle " + problem.integration.cycle, built.stepper->bytes());
+  built.stepper->name_fields(archive);
+  const std::size_t inverse_mass = archive.measured();
+  add("hierarchical inverse mass", inverse_mass > 0, "cycle " + problem.integration.cycle,
+      "not in cycle " + problem.integration.cycle, inverse_mass);
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output",
-      "no body.surface", sum([](const L& l) { return bytes_of(l.surface); }));
-  add("contact", contact, touched, "no obstacle",
-      sum([](const L& l) { return l.response().bytes(); }));
+      "no body.surface", sum([&](L& l) { archive.owns(l.surface); }));
   const std::string holding = holding_parts(problem.contact);
-  add("held points", !holding.empty(), holding, "no obstacle has grasp",
-      holding.empty() ? 0 : bytes(touching->memory()));
+  if (!holding.empty()) archive.owns(touching->memory());
+  const std::size_t held = archive.measured();
   const std::size_t attached = problem.contact.attachments.size();
+  if (attached > 0) archive.owns(touching->attached_points());
+  const std::size_t attachments = archive.measured();
+  add("contact", contact, touched, "no obstacle",
+      sum([&](L& l) { l.response().name_fields(archive, {}); }));
+  add("held points", !holding.empty(), holding, "no obstacle has grasp", held);
   add("attachments", attached > 0,
       touching ? counted(attached, "attachment") + ", " +
                      counted(static_cast<std::size_t>(touching->attached()), "point")
                : "",
-      "none asked for", attached > 0 ? bytes_of(touching->attached_points()) : 0);
+      "none asked for", attachments);
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface",
       grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);
   add("implicit solver", !solver.empty(), solver, "every level is explicit",
-      sum([](const L& l) { return l.integrator->bytes(); }));
+      sum([&](L& l) { l.integrator->name_fields(archive); }));
   add("inversion flags", flags > 0, body.material.model + " may not be inverted",
       body.material.model + " may be inverted", flags);
   return parts;

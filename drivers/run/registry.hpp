@@ -14,6 +14,7 @@ std::vector<Choice> cycles();           ///< ways to share a macro step among th
 std::vector<Choice> obstacle_shapes();  ///< shapes of obstacles, for contact
 std::vector<Choice> linear_solvers();   ///< linear solvers of implicit levels
 std::vector<Choice> preconditioners();  ///< preconditioners of conjugate gradients
+std::vector<Choice> diagnosis_kinds();  ///< reasons for which a run stops: kinds of Diagnosis
 
 /// Gives a problem the options of one of presets(). Throws InputError for another name.
 void apply_preset(std::string_view name, Problem& problem);

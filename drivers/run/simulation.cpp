@@ -50,8 +50,8 @@ constexpr double time_rounding = 1e-9;  // relative
 // part of an edge per macro step: the energy of slower motion is always allowed
 constexpr double least_edge = 1e-3;
 
-const Problem& steppable(const Problem& p) {
-  validate(p);
+const Problem& steppable(const Problem& p, Validation validation) {
+  if (validation == Validation::needed) validate(p);
   if (p.integration.cycle == "auto")
     throw InputError(
         "integration.cycle is auto, which a simulation does not decide; expected a cycle by its "
@@ -65,14 +65,14 @@ const Problem& steppable(const Problem& p) {
 // --- Set-up --------------------------------------------------------------------------------------
 
 template <class B>
-Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
-    : impl_(std::make_unique<Impl>(problem, exec)) {}
+Simulation<B>::Simulation(const Problem& problem, const Exec& exec, Validation validation)
+    : impl_(std::make_unique<Impl>(problem, exec, validation)) {}
 template <class B>
 Simulation<B>::~Simulation() = default;
 
 template <class B>
-Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec)
-    : problem(steppable(p)),
+Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validation)
+    : problem(steppable(p, validation)),
       built(build_hierarchy<B>(problem, exec)),
       queue(exec),
       meter(*built.hierarchy, built.meshes.front(), p.gravity),
@@ -104,18 +104,12 @@ template <class B>
 void Simulation<B>::step() {
   Impl& s = *impl_;
   s.residual = 0;
-  const Kokkos::Timer timer;
-  // the mean force of a short step oscillates, so that of the last whole step stays
-  const bool part = s.reaches_end();
-  if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
-  if (s.control.halves() && (s.judges || s.control.divides()))
-    s.cover(false);
-  else
+  s.stepped([&] {
+    if (s.control.halves() && (s.judges || s.control.divides())) return s.cover(false);
     s.advance(s.time, s.next_span()), s.unsolved += s.left_unsolved() > 0 ? 1 : 0;
-  if (part) copy_memory(s.hierarchy().exec(), s.wrench_before, s.wrench);
+    return std::optional<Diagnosis>();
+  });
   s.arrive();
-  if (!s.cores) return;
-  if (const auto exec = s.cores->after_step(timer.seconds())) s.hierarchy().clock.set_exec(*exec);
 }
 
 template <class B>

@@ -14,6 +14,12 @@
 
 namespace plica {
 
+/// Check of a problem by validate().
+enum class Validation {
+  needed,  ///< the problem is still to be checked
+  done     ///< the caller has checked it
+};
+
 /// A deformable body in motion, meshed at one or several resolutions (levels, the finest first).
 /// Not copyable. Two threads must not use one object at the same time. Kokkos must be initialised
 /// before the object is made, and finalised after it is destroyed.
@@ -24,7 +30,8 @@ class Simulation {
 
   /// Builds levels, contact, integrators and the stepper. Throws InputError with the wrong values,
   /// the possible choices and the remedy.
-  explicit Simulation(const Problem& problem, const Exec& exec = {});
+  explicit Simulation(const Problem& problem, const Exec& exec = {},
+                      Validation validation = Validation::needed);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -84,6 +91,8 @@ class Simulation {
   /// Returns the wrenches of all obstacles, then of all bodies, over the last macro step [N, N m].
   /// After a step that end_at() made shorter, they are those of the macro step before it. Waits.
   std::vector<Wrench> wrenches() const;
+  /// Returns the wrenches over the last step, also where end_at() made it shorter [N, N m]. Waits.
+  std::vector<Wrench> wrenches_of_last_step() const;
   /// Returns for each obstacle the largest depth of the surface in it [m]; 0: outside. Grasped
   /// points are left out. Waits.
   std::vector<double> contact_depths() const;
@@ -215,12 +224,6 @@ class Simulation {
 
   /// Returns stress and volume ratio of a level's elements, computed on the device. Waits.
   ElementFields element_fields(int level = 0) const;
-
-  /// Uses fewer threads from now on while other work takes cores, and more again when they are
-  /// free. Where kernels wait for a thread without a core, fewer threads are faster. Results have
-  /// the same bits. Has no effect on a device, or where the system does not tell which threads wait
-  /// (Linux does). Call steps one after the other, since their wall times are compared.
-  void share_cores();
 
   /// Switches CUDA graphs for launches that repeat from step to step on (the default) or off. Off,
   /// each kernel is launched alone. Results are the same. Has no effect on other back ends.

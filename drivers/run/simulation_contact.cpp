@@ -124,8 +124,18 @@ int Simulation<B>::torn_attachments() const {
 
 template <class B>
 std::vector<Wrench> Simulation<B>::wrenches() const {
-  const std::vector<double> w = host_values(impl_->hierarchy().exec(), impl_->wrench);
-  const std::vector<std::string> names = wrench_names(impl_->problem);
+  return impl_->to_host(impl_->wrench);
+}
+
+template <class B>
+std::vector<Wrench> Simulation<B>::wrenches_of_last_step() const {
+  return impl_->to_host(impl_->shorter ? impl_->wrench_shorter : impl_->wrench);
+}
+
+template <class B>
+std::vector<Wrench> Simulation<B>::Impl::to_host(const Doubles<B>& numbers) const {
+  const std::vector<double> w = host_values(built.hierarchy->exec(), numbers);
+  const std::vector<std::string> names = wrench_names(problem);
   std::vector<Wrench> all;
   for (std::size_t o = 0; 6 * o < w.size(); ++o)
     all.push_back({names[o],

@@ -5,10 +5,10 @@
 #include <plica/core/error.hpp>
 #include <plica/core/launch.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
-#include <plica/drivers/run/busy_cores.hpp>
 #include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
 #include <plica/drivers/run/motion_commands.hpp>
+#include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
 
@@ -18,13 +18,10 @@ namespace plica {
 template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
-template <class B>
-using StressSnapshot = typename Viscosity<B>::Snapshot;
-
 /// Data and functions of a simulation, for the sources that implement it.
 template <class B>
 struct Simulation<B>::Impl {
-  Impl(const Problem& p, const Exec& exec);
+  Impl(const Problem& p, const Exec& exec, Validation validation);
 
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
@@ -43,8 +40,9 @@ struct Simulation<B>::Impl {
   double residual = 0, worst_residual = 0;
 
   // Wrenches, 6 numbers each: over the last macro step (where the run ends within one, over the one
-  // before); their copy during a step that is shorter; the sum over the parts of a step so far
-  Doubles<B> wrench, wrench_before, wrench_sum;
+  // before); over the step that is shorter than that; the sum over the parts of a step so far
+  Doubles<B> wrench, wrench_shorter, wrench_sum;
+  bool shorter = false;  // the last step was shorter: the run has ended within a macro step
 
   // Reference values of checks
   bool judges = false;           // a level's integrator tells whether it has solved a step
@@ -57,9 +55,7 @@ struct Simulation<B>::Impl {
   /// Snapshot: a state to go back to, and what belongs to it.
   struct Snapshot {
     std::vector<State<B>> levels;
-    std::vector<StressSnapshot<B>> stress;  ///< only with viscous materials
-    Doubles<B> memory;                      ///< memory of obstacles: see Contact::memory()
-    std::vector<typename ContactResponse<B>::Snapshot> contact;
+    KeptValues<B> history;  ///< see name_history()
     double time = 0, put_in = 0;
     long steps = 0;
     Point drift = Point::Zero();
@@ -78,13 +74,13 @@ struct Simulation<B>::Impl {
   long rejected = 0, unsolved = 0;
   std::optional<Snapshot> part_start;  // snapshot at the start of a part, where parts are judged
 
-  std::optional<SharedCores<B>> cores;  // only where cores are shared with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
   // throws InputError where there is no obstacle of that number
   const Contact<B>& contact_with(int obstacle) const;
+  std::vector<Wrench> to_host(const Doubles<B>& numbers) const;  // 6 each: force, torque
   // grasps (closed) or releases; throws InputError where the obstacle has no grasp
   void hold_now(int obstacle, bool closed);
   void move(int obstacle, const typename MotionCommands<B>::Command& how);  // from now on
@@ -94,6 +90,19 @@ struct Simulation<B>::Impl {
   // Steps
   bool reaches_end() const;
   double next_span() const;
+  // calls take(), which takes the next macro step or what is left of it to the end of the run
+  template <class Take>
+  auto stepped(const Take& take) {
+    shorter = reaches_end();
+    if (shorter) copy_memory(hierarchy().exec(), wrench, wrench_shorter);
+    auto result = take();
+    if (shorter) {  // the mean force of a short step oscillates: that of the last whole step stays
+      copy_memory(hierarchy().exec(), wrench, wrench_sum);
+      copy_memory(hierarchy().exec(), wrench_shorter, wrench);
+      copy_memory(hierarchy().exec(), wrench_sum, wrench_shorter);
+    }
+    return result;
+  }
   void advance(double from, double span);
   void arrive();
 
@@ -108,7 +117,8 @@ struct Simulation<B>::Impl {
   void keep_at_times();
   void keep(Snapshot& to);
   void reset_snapshots();
-  void restore_snapshot(const Snapshot& to);
+  void restore_snapshot(Snapshot& to);
+  void name_history(Archive<B>& archive);
   void accept_state();
   void restart();
   void open_budget();

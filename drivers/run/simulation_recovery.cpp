@@ -77,7 +77,7 @@ std::optional<Diagnosis> Simulation<B>::Impl::retry(const Diagnosis& bad) {
   // A step that is the only one since the snapshot is known to be bad in this division.
   if (there <= time + (1 + time_rounding) * next_span() && !control.halve()) return bad;
   while (time < there) {
-    if (const auto still = cover(true)) return still;
+    if (const auto still = stepped([&] { return cover(true); })) return still;
     arrive();
     if (after_repeated) after_repeated();
   }
@@ -168,17 +168,19 @@ void Simulation<B>::Impl::keep(Snapshot& to) {
   if (to.levels.empty())
     for (const auto& level : levels) to.levels.emplace_back("kept", level.model.vertices);
   for (std::size_t i = 0; i < levels.size(); ++i) to.levels[i].copy(exec, levels[i].state);
-  if (is_viscous(problem.body)) {
-    to.stress.resize(levels.size());
-    for (std::size_t i = 0; i < levels.size(); ++i)
-      levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
-  }
-  copy_memory(exec, memory, to.memory);
-  if (hierarchy()[0].contact()) {
-    to.contact.resize(levels.size());
-    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].response().keep(exec, to.contact[i]);
-  }
+  Archive<B> archive(Archive<B>::Task::keep, to.history, exec);
+  name_history(archive);
   to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
+}
+
+/// Names what states alone do not tell: relaxed stresses, memory of obstacles, contact.
+template <class B>
+void Simulation<B>::Impl::name_history(Archive<B>& archive) {
+  for (auto& level : hierarchy().levels)
+    if (level.viscosity) level.viscosity->name_fields(archive, level, {});
+  archive.field("the memory of obstacles", memory);
+  for (auto& level : hierarchy().levels)
+    if (level.contact()) level.response().name_kept(archive, hierarchy().exec(), level);
 }
 
 /// Replaces all snapshots by the present state: nothing can go back to a state before it.
@@ -197,22 +199,17 @@ void Simulation<B>::Impl::accept_state() {
 
 /// Restores a snapshot of all levels. Coarser levels then start again from level 0's state.
 template <class B>
-void Simulation<B>::Impl::restore_snapshot(const Snapshot& to) {
-  copy_memory(hierarchy().exec(), to.memory, memory);
+void Simulation<B>::Impl::restore_snapshot(Snapshot& to) {
+  const Exec& exec = hierarchy().exec();
   for (std::size_t i = 0; i < to.levels.size(); ++i)
-    hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
-  for (std::size_t i = 0; i < to.stress.size(); ++i)
-    hierarchy().levels[i].viscosity->restore(hierarchy().exec(), hierarchy().levels[i],
-                                             to.stress[i]);
+    hierarchy().levels[i].state.copy(exec, to.levels[i]);
   time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
   hierarchy().clear_flags();
   hierarchy().reset_history();
-  for (std::size_t i = 0; i < to.contact.size(); ++i) {
-    Level<B>& level = hierarchy().levels[i];
-    level.response().restore(hierarchy().exec(), level, to.contact[i]);
-  }
+  Archive<B> archive(Archive<B>::Task::put_back, to.history, exec);
+  name_history(archive);
   if (const Contact<B>* contact = hierarchy()[0].contact()) {
-    contact->take_lost(hierarchy().exec());
+    contact->take_lost(exec);
     motions.restore_snapshot(*contact, time);
   }
   built.stepper->begin(hierarchy());

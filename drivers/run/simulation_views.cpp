@@ -107,11 +107,6 @@ void Simulation<B>::use_graphs(bool on) {
 }
 
 template <class B>
-void Simulation<B>::share_cores() {
-  if (!impl_->cores) impl_->cores.emplace(impl_->hierarchy().exec());
-}
-
-template <class B>
 void Simulation<B>::time_stages(bool on) {
   impl_->hierarchy().clock.on = on;
 }
@@ -236,20 +231,17 @@ ElementFields Simulation<B>::element_fields(int level) const {
 namespace {
 
 template <class B, class Snapshot>
-void persist_kept(Snapshot& kept, Archive<B>& archive) {
+void name_snapshot(Snapshot& kept, Archive<B>& archive) {
   for (double* value : {&kept.time, &kept.put_in, &kept.drift[0], &kept.drift[1], &kept.drift[2]})
     archive.number(*value);
   archive.number(kept.steps);
   for (const auto& state : kept.levels) archive.state("a kept level", state);
-  for (auto& stress : kept.stress)
-    archive.field("a kept memory of stress", stress.memory), archive.number(stress.time);
-  archive.field("the kept memory of obstacles", kept.memory);
-  for (auto& contact : kept.contact) contact.persist(archive);
+  kept.history.name_fields(archive);
 }
 
 /// Names to the archive all that is carried from one macro step to the next, in a fixed order.
 template <class B, class Impl>
-void persist(Impl& s, Archive<B>& archive) {
+void name_all(Impl& s, Archive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.levels.size());
@@ -257,15 +249,15 @@ void persist(Impl& s, Archive<B>& archive) {
                         &s.drift[0], &s.drift[1], &s.drift[2]})
     archive.number(*value);
   for (long* value : {&s.steps, &s.rejected, &s.unsolved}) archive.number(*value);
-  s.control.persist(archive);
+  s.control.name_fields(archive);
   archive.number(s.budget_opens);
   for (std::size_t i = 0; i < s.kept.levels.size(); ++i)
-    s.hierarchy().levels[i].persist(archive, "level " + std::to_string(i) + "'s ");
-  s.built.stepper->persist(archive);
+    s.hierarchy().levels[i].name_fields(archive, "level " + std::to_string(i) + "'s ");
+  s.built.stepper->name_fields(archive);
   archive.field("the obstacles' wrenches", s.wrench);
   archive.field("the obstacles' memory", s.memory);
-  persist_kept<B>(s.kept, archive);
-  if (s.fallback) persist_kept<B>(*s.fallback, archive);
+  name_snapshot<B>(s.kept, archive);
+  if (s.fallback) name_snapshot<B>(*s.fallback, archive);
   archive.finish();
 }
 
@@ -277,7 +269,7 @@ SavedState Simulation<B>::save() const {
   impl_->hierarchy().exec().fence("plica::save");
   SavedState saved;
   Archive archive(Archive::Task::save, saved.bytes);
-  persist<B>(*impl_, archive);
+  name_all<B>(*impl_, archive);
   return saved;
 }
 
@@ -288,7 +280,7 @@ void Simulation<B>::restore(const SavedState& saved) {
   std::vector<unsigned char> bytes = saved.bytes;
   for (const auto task : {Archive::Task::check, Archive::Task::restore}) {
     Archive archive(task, bytes);
-    persist<B>(*impl_, archive);
+    name_all<B>(*impl_, archive);
   }
   impl_->hierarchy().clear_flags();
 }

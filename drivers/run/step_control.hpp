@@ -44,7 +44,7 @@ class StepControl {
   long halvings() const { return halvings_; }
 
   template <class Archive>
-  void persist(Archive& archive) {
+  void name_fields(Archive& archive) {
     for (long* value : {&depth_, &passed_, &wait_, &halvings_}) archive.number(*value);
     archive.number(grew_);
   }

@@ -33,8 +33,9 @@ void check_together(const std::string& path, const Box& box) {
                        "; expected at most max, " + Vector{length}.to_text(box.max));
 }
 
-template <class Knots>
-void check_times(const std::string& path, const Knots& knots) {
+template <class Knot>
+requires requires(Knot knot) { knot.time; }
+void check_together(const std::string& path, const std::vector<Knot>& knots) {
   if (knots.empty()) throw InputError(path + " is empty; expected at least one time");
   const auto to_text = [&](std::size_t i) { return Quantity{duration}.to_text(knots[i].time, 9); };
   for (std::size_t i = 1; i < knots.size(); ++i)
@@ -42,9 +43,6 @@ void check_times(const std::string& path, const Knots& knots) {
       throw InputError(path + "." + std::to_string(i) + ".time is " + to_text(i) +
                        "; expected a time after that of the entry before, " + to_text(i - 1));
 }
-void check_together(const std::string& path, const PathMotion& o) { check_times(path, o.knots); }
-void check_together(const std::string& path, const PathTurn& o) { check_times(path, o.knots); }
-void check_together(const std::string& path, const PolygonCourse& o) { check_times(path, o.knots); }
 
 void check_together(const std::string& path, const TwistOptions& o) {
   check_apart(path, o.from, o.to);
@@ -56,87 +54,40 @@ void check_together(const std::string& path, const InitialOptions& o) {
                      " has stretch and random, which puts vertices anywhere; expected one of them");
 }
 
-// Walks the tables of core/describe.hpp and checks every value
-class Checker {
- public:
-  explicit Checker(std::string path) : path_(std::move(path)) {}
+template <class T>
+void check_keys(const std::string& path, T& options);
 
-  template <class T, class Kind>
-  void operator()(const char* key, T&& member, const Kind& kind, const char*) const {
-    inside(path_ + "." + key, kind, member);
-  }
-  template <class T, class Kind>
-  void required(const char* key, T&& member, const Kind& kind, const char*) const {
-    inside(path_ + "." + key, kind, member);
-  }
-  void one_of() const {}
-  void at_most_one() const {}
-  template <class Variant, class T>
-  void alternative(const char* key, Variant& target, const Case<T>&, const char*) const {
-    if (auto* held = std::get_if<T>(&target)) inside(path_ + "." + key, Group{}, *held);
-  }
-  template <class T>
-  void alternative(const char* key, std::optional<T>& target, const Case<T>&, const char*) const {
-    inside(path_ + "." + key, Group{}, target);
-  }
-  void alternative(const char* key, Point& target, const Direction& kind, const char*) const {
-    kind.check(path_ + "." + key, target);
-  }
-  void alternative(const char*, std::string&, const Text&, const char*) const {}
-  template <class Variant, auto Member, class Kind>
-  void alternative(const char* key, Variant& target, const As<Member, Kind>& as,
-                   const char*) const {
-    if (auto* held = std::get_if<typename As<Member, Kind>::Type>(&target))
-      inside(path_ + "." + key, as.kind, held->*Member);
-  }
-  template <class Variant, auto Member>
-  void alternative(const char* key, Variant& target, const CaseList<Member>&, const char*) const {
-    const std::string path = path_ + "." + key;
-    if (auto* held = std::get_if<typename CaseList<Member>::Type>(&target)) {
-      inside(path, List{}, held->*Member);
-      check_together(path, *held);
-    }
-  }
-
-  template <class Kind, class T>
-  static void inside(const std::string& path, const Kind& kind, T& value) {
+template <class Kind, class T>
+void check_value(const std::string& path, const Kind& kind, T& value) {
+  if constexpr (std::is_same_v<Kind, Group>)
+    check_keys(path, value);
+  else if constexpr (std::is_same_v<Kind, Map>)
+    for (auto& [name, one] : value) check_keys(path + "." + name, one);
+  else if constexpr (std::is_same_v<Kind, List>)
+    for (std::size_t i = 0; i < value.size(); ++i)
+      check_keys(path + "." + std::to_string(i), value[i]);
+  else
     kind.check(path, value);
-  }
-  template <class Kind, class T>
-  requires(!std::is_same_v<Kind, AutoQuantity>) static void inside(const std::string& path,
-                                                                   const Kind& kind,
-                                                                   std::optional<T>& value) {
-    if (value) inside(path, kind, *value);
-  }
-  template <class T>
-  static void inside(const std::string& path, const Group&, T& value) {
-    Checker deeper(path);
-    describe(deeper, value);
-    check_together(path, value);
-  }
-  template <class T>
-  static void inside(const std::string& path, const Group& group, std::optional<T>& value) {
-    if (value) inside(path, group, *value);
-  }
-  template <class T>
-  static void inside(const std::string& path, const List&, std::vector<T>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      inside(path + "." + std::to_string(i), Group{}, values[i]);
-  }
-  template <class T>
-  static void inside(const std::string& path, const Map&, std::map<std::string, T>& values) {
-    for (auto& [name, value] : values) inside(path + "." + name, Group{}, value);
-  }
+}
 
- private:
-  std::string path_;
-};
+/// Walks the table of a struct and checks every value.
+template <class T>
+void check_keys(const std::string& path, T& options) {
+  for_each_key(options, [&](const char* key, auto& member, const auto& kind, const char*) {
+    auto* value = held(kind, member);
+    if (value == nullptr) return;
+    const std::string inside = path + "." + key;
+    check_value(inside, kind, *value);
+    if constexpr (std::is_same_v<decltype(kind), const List&>) check_together(inside, *value);
+  });
+  check_together(path, options);
+}
 
-// Checks every value of a struct. A table takes a struct that a reader may fill; a Checker only
-// reads it.
+/// Checks every value of a struct. A table takes a struct that a reader may fill; here it is only
+/// read.
 template <class T>
 void check_values(const std::string& path, const T& options) {
-  Checker::inside(path, Group{}, const_cast<T&>(options));
+  check_keys(path, const_cast<T&>(options));
 }
 
 /// Checks that an obstacle closes and opens in turns.
@@ -371,20 +322,24 @@ void validate_options(const Problem& problem, std::size_t levels) {
         "body.damping.mass or another cycle");
 }
 
-void validate(const Problem& problem) {
+void validate_meshes(const Problem& problem) {
   const Body& body = problem.body;
   if (body.levels.empty())
     throw InputError("body.levels is empty; expected at least one mesh, finest first");
   for (std::size_t i = 0; i < body.levels.size(); ++i)
     validate_mesh(body.levels[i], static_cast<int>(i));
   check_regions(body);
-  validate_options(problem, body.levels.size());
   check_points(body);
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
   validate_contact(problem);
   validate_cavities(problem);
   starts_in_obstacles(problem);
+}
+
+void validate(const Problem& problem) {
+  validate_options(problem, problem.body.levels.size());
+  validate_meshes(problem);
 }
 
 }  // namespace plica

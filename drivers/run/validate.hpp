@@ -16,6 +16,9 @@ void validate(const Problem& problem);
 /// InputError.
 void validate_options(const Problem& problem, std::size_t levels);
 
+/// Checks what validate_options() does not: the meshes, and what needs them. Throws InputError.
+void validate_meshes(const Problem& problem);
+
 /// Checks the options of methods: what cycle, integrators and linear solvers cannot do together.
 /// Throws InputError.
 void validate_methods(const IntegrationOptions& options, std::size_t levels);

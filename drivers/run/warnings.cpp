@@ -59,6 +59,20 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
              : ": expected a finer mesh"));
 }
 
+// Warns of so many regions that nodal elements, which average over a vertex and its region, are as
+// stiff as linear ones
+void doubt_regions(const Body& body, std::vector<std::string>& sentences) {
+  constexpr std::size_t few_regions = 8, tets_of_each = 100;
+  const TetMesh& mesh = body.levels.front();
+  const std::size_t regions = mesh.region_names.size();
+  if (element_of(body, 0) != Element::nodal || regions <= few_regions ||
+      regions * tets_of_each <= mesh.tets.size())
+    return;
+  sentences.push_back(text("body.levels.0: ", regions, " regions for ", mesh.tets.size(),
+                           " tetrahedra; nodal elements average within a region, so these are as "
+                           "stiff as linear ones; expected a region for 100 tetrahedra or more"));
+}
+
 // Warns of a tool that is lighter than what it touches: its own inertia then counts for nothing,
 // and contact throws it about.
 void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
@@ -102,6 +116,7 @@ std::vector<std::string> problem_warnings(const Problem& problem) {
                           "; expected the finest first");
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
+  doubt_regions(problem.body, sentences);
   doubt_tools(problem, sentences);
   doubt_integrator(problem, sentences);
   for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);

@@ -40,12 +40,6 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
           to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
 }
 
-/// Returns the memory of a sparse matrix [bytes].
-template <class B, class Value>
-std::size_t bytes_of_rows(const SparseRows<B, Value>& A) {
-  return bytes_of_views(A.first, A.column, A.value);
-}
-
 /// Returns the transfer P from a coarse mesh to a fine one, [fine vertices x coarse vertices]. It
 /// has the weights of `up`, smoothed on the fine mesh if `smooth`. Rows and columns of vertices
 /// whose motion is given are empty; weights up to 1e-6 are left out.

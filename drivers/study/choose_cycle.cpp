@@ -15,7 +15,9 @@
 #include <plica/drivers/spaces/coarse_spaces.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/cycle_trial.hpp>
+#include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/first_touch.hpp>
+#include <plica/drivers/study/trajectory.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica {
@@ -72,9 +74,7 @@ IntegrationOptions stepped(IntegrationOptions o, const char* integrator,
 
 /// Returns the problem with one of its levels alone.
 Problem only_level(Problem problem, std::size_t level) {
-  Body& body = problem.body;
-  body.levels = {body.levels[level]};
-  if (body.element.size() > 1) body.element = {body.element[level]};
+  keep_levels(problem.body, level, 1);
   return problem;
 }
 
@@ -197,7 +197,6 @@ class CycleTrials {
     const double until = now_() + left, early = before_touching * choice_.duration;
     try {
       Simulation<B> simulation(coarsest, exec_);
-      simulation.share_cores();
       if (start_.time > 0) {
         const std::size_t vertices = coarsest.body.levels.front().vertices.size();
         simulation.set_state(std::vector<Point>(vertices, start_.u.front()),
@@ -231,14 +230,7 @@ class CycleTrials {
     if (problem_.body.levels.size() == 1) return coarse;
     const Embedding rows =
         embed(problem_.body.levels.front().vertices, problem_.body.levels.back(), Outside::clamp);
-    const auto fine = [&](const std::vector<Point>& field) {
-      std::vector<Point> values(rows.vertices.size(), Point::Zero());
-      for (std::size_t a = 0; a < values.size(); ++a)
-        for (std::size_t c = 0; c < 4; ++c)
-          values[a] += rows.weights[a][c] * field[static_cast<std::size_t>(rows.vertices[a][c])];
-      return values;
-    };
-    return {coarse.time, fine(coarse.u), fine(coarse.v)};
+    return {coarse.time, interpolated(coarse.u, rows), interpolated(coarse.v, rows)};
   }
 
   // Runs level 0 alone, in steps that end exactly at the trial's quarters

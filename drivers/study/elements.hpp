@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/elastic/fibres.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,7 @@ inline void keep_levels(Body& body, std::size_t first, std::size_t levels) {
     each.erase(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(first));
     each.resize(std::min(each.size(), levels));
   };
+  if (first > 0) fields_to_levels(body);
   keep(body.levels);
   if (body.element.size() > 1) keep(body.element);
 }

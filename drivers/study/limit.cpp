@@ -52,7 +52,9 @@ Limit richardson_limit(const Trajectory& fine, const Trajectory& coarse, const T
   const StudyErrors correction = errors_of(fine, limit.trajectory);
   limit.correction = limit.own_error = correction.displacement,
   limit.own_error_velocity = correction.velocity;
-  if (!limit.order || *limit.order < least_order || *limit.order > most_order) return limit;
+  const bool believed =  // an order that is NaN is not
+      limit.order && *limit.order >= least_order && *limit.order <= most_order;
+  if (!believed) return limit;
   const StudyErrors own = errors_of(extrapolated(coarse_there, *coarsest, limit.used_order),
                                     extrapolated(fine_there, coarse_there, limit.used_order));
   const double shrinks = std::exp2(limit.used_order) - 1;
@@ -61,7 +63,8 @@ Limit richardson_limit(const Trajectory& fine, const Trajectory& coarse, const T
 }
 
 double Truth::error() const {
-  return std::max(family.own_error, difference - check.own_error) + time_error;
+  // the difference first: std::max() returns its first argument where one is NaN
+  return std::max(difference - check.own_error, family.own_error) + time_error;
 }
 
 }  // namespace plica

@@ -6,7 +6,7 @@
 #include <plica/meshes/generators.hpp>
 #include <random>
 
-// Bodies of the stability matrix, and the properties that vary.
+// Bodies of the stability matrix, and the lines of properties that vary.
 namespace plica {
 
 namespace {
@@ -51,37 +51,36 @@ MatrixBody clamped_beam() {
   return body;
 }
 
-void set_young_modulus(MatrixBody& body, double pascal) {
-  body.problem.body.material.young_modulus = pascal;
+void set_slivers(MatrixBody& body, double ratio) {
+  for (Point& p : body.problem.body.levels.front().vertices)
+    if (std::abs(p.x() - 0.2) < 1e-9) p.x() = 0.15 + 0.05 / ratio;
 }
-void set_young_modulus_on_earth(MatrixBody& body, double pascal) {
-  set_young_modulus(body, pascal);
-  put_on_earth(body, 1);
+
+namespace {
+
+MaterialOptions& material_of(MatrixBody& body) { return body.problem.body.material; }
+
+void set_young_modulus(MatrixBody& body, double E) { material_of(body).young_modulus = E; }
+void set_poisson_ratio(MatrixBody& body, double nu) { material_of(body).poisson_ratio = nu; }
+void set_density(MatrixBody& body, double density) { material_of(body).density = density; }
+void set_step(MatrixBody& body, double over_critical) { body.step = over_critical; }
+void set_unstable_step(MatrixBody& body, double step) { body.step = step, body.unstable = true; }
+void set_young_modulus_on_earth(MatrixBody& body, double E) {
+  set_young_modulus(body, E), put_on_earth(body, 1);
 }
-void set_poisson_ratio(MatrixBody& body, double ratio) {
-  body.problem.body.material.poisson_ratio = ratio;
-}
-void set_density(MatrixBody& body, double density) { body.problem.body.material.density = density; }
+
 void set_size(MatrixBody& body, double length) {
   const double scale = length / length_of(body);
   for (TetMesh& mesh : body.problem.body.levels)
     for (Point& p : mesh.vertices) p *= scale;
-}
-void set_gravity(MatrixBody& body, double factor) { put_on_earth(body, factor); }
-void set_step(MatrixBody& body, double over_critical) { body.step = over_critical; }
-void set_unstable_step(MatrixBody& body, double over_critical) {
-  body.step = over_critical, body.unstable = true;
-}
-
-void set_slivers(MatrixBody& body, double ratio) {
-  for (Point& p : body.problem.body.levels.front().vertices)
-    if (std::abs(p.x() - 0.2) < 1e-9) p.x() = 0.15 + 0.05 / ratio;
 }
 
 void set_stretch(MatrixBody& body, double factor) {
   start_at(body, MatrixBody::Start::stretched,
            [=](const Point& p) { return Point(factor * p.x(), p.y(), p.z()); });
 }
+
+/// Starts with the thickness along z multiplied by a factor: 0 flattens, below 0 inverts.
 void set_thickness(MatrixBody& body, double factor) {
   using Start = MatrixBody::Start;
   const Start start = factor > 0     ? Start::thin
@@ -91,6 +90,7 @@ void set_thickness(MatrixBody& body, double factor) {
   start_at(body, start,
            [=](const Point& p) { return Point(p.x(), p.y(), 0.05 + factor * (p.z() - 0.05)); });
 }
+
 void set_random(MatrixBody& body, double seed) {
   std::mt19937 random(static_cast<unsigned>(seed));
   std::uniform_real_distribution<double> within(0, 1);
@@ -100,6 +100,7 @@ void set_random(MatrixBody& body, double seed) {
   });
 }
 
+/// Lets the free body fall flat on a plane at this speed [m/s].
 void set_impact(MatrixBody& body, double speed) {
   Body& b = body.problem.body;
   b.fixed.clear();
@@ -113,6 +114,7 @@ void set_impact(MatrixBody& body, double speed) {
   body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);
 }
 
+/// Makes the outer half `ratio` times as stiff as the inner one.
 void set_contrast(MatrixBody& body, double ratio) {
   RegionOptions& stiff = body.problem.body.regions["stiff"];
   stiff.where = HalfSpaceSelection{{0.2, 0, 0}, -Point::UnitX()};
@@ -135,10 +137,39 @@ void set_levels(MatrixBody& body, double count) {
     body.problem.body.levels.push_back(box_mesh(beam_box, cells[i]));
 }
 
+/// Moves level 1 along x by this number of beam lengths.
 void set_overlap(MatrixBody& body, double lengths) {
   for (Point& p : body.problem.body.levels[1].vertices) p.x() += lengths * 0.4;
   body.apart = true;
   body.problem.body.fixed.clear();
+}
+
+}  // namespace
+
+const std::vector<MatrixLine>& matrix_lines() {
+  using Of = MatrixLine::Of;
+  static const std::vector<MatrixLine> lines = {
+      {"E = %g Pa", {1e2, 1e4, 1e6, 1e8, 1e10}, set_young_modulus},
+      {"E = %g Pa on Earth", {1e10, 1e8, 1e6, 1e4, 1e2}, set_young_modulus_on_earth},
+      {"nu = %g", {0, 0.3, 0.45, 0.49, 0.499}, set_poisson_ratio},
+      {"density %g kg/m^3", {2e4, 1e3, 1}, set_density},
+      {"length %g m", {1, 1e-2, 1e3, 1e-4}, set_size},
+      {"%g x gravity", {1, 10, 100, 1000}, put_on_earth},
+      {"%g x critical", {0.1, 1, 10, 100, 1000}, set_step, Of::implicit_alone},
+      {"%g x critical", {1, 2, 4, 8, 16, 32, 64}, set_step, Of::him},
+      {"%g x critical, refused", {1.01, 2, 100}, set_step, Of::explicit_alone},
+      {"%g x critical, allowed", {1.05, 2, 10}, set_unstable_step, Of::explicit_alone},
+      {"slivers 1 : %g", {10, 100, 1000}, set_slivers},
+      {"stretched x %g", {2, 5}, set_stretch},
+      {"flattened to %g", {0.01, 0}, set_thickness},
+      {"turned inside out x %g", {-0.5, -1}, set_thickness},
+      {"vertices at random, seed %g", {1, 2}, set_random},
+      {"impact at %g m/s", {0.1, 1, 10, 50, 200}, set_impact},
+      {"stiffness 1 : %g", {1e2, 1e4, 1e6}, set_contrast},
+      {"one tetrahedron, edge %g m", {1e-3, 1}, set_one_tetrahedron},
+      {"%g levels", {1, 2, 3, 4, 5, 6}, set_levels},
+      {"levels %g lengths apart", {0.5, 0.9, 0.99}, set_overlap}};
+  return lines;
 }
 
 }  // namespace plica

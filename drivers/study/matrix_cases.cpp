@@ -8,46 +8,13 @@
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/kernels/materials/list.hpp>
 
-// The table of the stability matrix's cases, and the rules by which each must end.
+// The stability matrix's cases, and the rules by which each must end.
 namespace plica {
 
 namespace {
 
 using Values = std::vector<double>;
-
-/// Methods with which a line is run.
-enum class Of { all, implicit_alone, him, explicit_alone };
-
-/// A line of the matrix: one thing that varies.
-struct Line {
-  const char* format;  // name of a case, %g: its value
-  Values values;       // the most extreme last
-  void (*set)(MatrixBody&, double);
-  Of of = Of::all;
-};
-
-const Line lines[] = {
-    {"E = %g Pa", {1e2, 1e4, 1e6, 1e8, 1e10}, set_young_modulus},
-    {"E = %g Pa on Earth", {1e10, 1e8, 1e6, 1e4, 1e2}, set_young_modulus_on_earth},
-    {"nu = %g", {0, 0.3, 0.45, 0.49, 0.499}, set_poisson_ratio},
-    {"density %g kg/m^3", {2e4, 1e3, 1}, set_density},
-    {"length %g m", {1, 1e-2, 1e3, 1e-4}, set_size},
-    {"%g x gravity", {1, 10, 100, 1000}, set_gravity},
-    {"%g x critical", {0.1, 1, 10, 100, 1000}, set_step, Of::implicit_alone},
-    {"%g x critical", {1, 2, 4, 8, 16, 32, 64}, set_step, Of::him},
-    {"%g x critical, refused", {1.01, 2, 100}, set_step, Of::explicit_alone},
-    {"%g x critical, allowed", {1.05, 2, 10}, set_unstable_step, Of::explicit_alone},
-    {"slivers 1 : %g", {10, 100, 1000}, set_slivers},
-    {"stretched x %g", {2, 5}, set_stretch},
-    {"flattened to %g", {0.01, 0}, set_thickness},
-    {"turned inside out x %g", {-0.5, -1}, set_thickness},
-    {"vertices at random, seed %g", {1, 2}, set_random},
-    {"impact at %g m/s", {0.1, 1, 10, 50, 200}, set_impact},
-    {"stiffness 1 : %g", {1e2, 1e4, 1e6}, set_contrast},
-    {"one tetrahedron, edge %g m", {1e-3, 1}, set_one_tetrahedron},
-    {"%g levels", {1, 2, 3, 4, 5, 6}, set_levels},
-    {"levels %g lengths apart", {0.5, 0.9, 0.99}, set_overlap},
-};
+using Of = MatrixLine::Of;
 
 /// A method and the number and length of its macro steps.
 struct Method {
@@ -270,15 +237,12 @@ MatrixCase case_of(const MatrixBody& body, const Method& method, const std::stri
                  body.displacement,
                  expected_of(body, method, material)};
   one.problem.body.material.model = material;
-  const std::size_t first = method.name.find('/'), second = method.name.find('/', first + 1);
-  const bool shares = second != std::string::npos;
-  const StudyCase study =
-      study_case(one.problem, {},
-                 {method.name.substr(0, second), shares ? method.name.substr(second + 1) : "", ""});
-  one.problem = problem_of(one.problem, study);
+  const ChosenMethod chosen = chosen_method(method.name);
+  one.problem = problem_of(one.problem, study_case(one.problem, {}, chosen));
   one.step = body.step > 0 ? body.step : method.step;
   one.problem.integration.allow_unstable = body.unstable || method.kind == Method::Kind::shared;
-  if (shares || method.kind == Method::Kind::stepped) one.problem.integration.substeps = {1};
+  if (!chosen.distribution.empty() || method.kind == Method::Kind::stepped)
+    one.problem.integration.substeps = {1};
   return one;
 }
 
@@ -304,7 +268,7 @@ std::string Expected::text() const {
 
 std::vector<MatrixCase> stability_matrix(MatrixSize size) {
   std::vector<MatrixCase> cases;
-  const auto add = [&](const Line& line, double value, const std::string& element,
+  const auto add = [&](const MatrixLine& line, double value, const std::string& element,
                        auto takes_part) {
     MatrixBody body = clamped_beam();
     body.problem.body.element = {element};
@@ -318,7 +282,7 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
         if (takes_part(material, method.name))
           cases.push_back(case_of(body, method, material, name));
   };
-  for (const Line& line : lines) {
+  for (const MatrixLine& line : matrix_lines()) {
     const Values values = size == MatrixSize::small ? Values{line.values.back()} : line.values;
     for (const double value : values) add(line, value, "linear", [](auto&...) { return true; });
     add(line, values.back(), "nodal", told_by_nodal);

@@ -88,7 +88,7 @@ MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const
   MatrixCase one{.name = beam.name + what + ", " + number(run.step > 0 ? run.step : 0.9) +
                          " x critical, " + element + " elements",
                  .method = run.method,
-                 .problem = problem_of(p, study_case(p, {}, {run.method, "", ""})),
+                 .problem = problem_of(p, study_case(p, {}, chosen_method(run.method))),
                  .step = run.step,
                  .macro_steps = run.macro_steps,
                  .displacement = body.displacement,

@@ -8,6 +8,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/integrators.hpp>
+#include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
@@ -207,10 +208,7 @@ MatrixRow compared(const std::string& material, const std::string& method, const
   body.load_ratio = 1e-3;
   body.load();
   body.problem.body.material.model = material;
-  const std::size_t second = method.find('/', method.find('/') + 1);
-  const std::string shares = second == std::string::npos ? "" : method.substr(second + 1);
-  const StudyCase one = study_case(body.problem, {}, {method.substr(0, second), shares, ""});
-  Problem p = problem_of(body.problem, one);
+  Problem p = problem_of(body.problem, study_case(body.problem, {}, chosen_method(method)));
   const bool him = method == "cycle/him", fits = him || method == "single/v_cycle_euler";
   p.integration.macro_step = (him ? 8 : 0.9) * study_level(p, 0).critical_step;
   p.integration.allow_unstable = true;

@@ -31,28 +31,21 @@ struct MatrixBody {
 /// Returns a beam of 0.4 x 0.1 x 0.1 m, clamped at x = 0. Its levels have 192 and 24 tetrahedra.
 MatrixBody clamped_beam();
 
-void set_young_modulus(MatrixBody& body, double pascal);
-void set_young_modulus_on_earth(MatrixBody& body, double pascal);
-void set_poisson_ratio(MatrixBody& body, double ratio);
-void set_density(MatrixBody& body, double density);
-void set_size(MatrixBody& body, double length);
-void set_gravity(MatrixBody& body, double factor);
-void set_step(MatrixBody& body, double over_critical);
-void set_unstable_step(MatrixBody& body, double over_critical);
 /// Makes one layer of cells of level 0 thinner: its width is `ratio` times its thickness.
 void set_slivers(MatrixBody& body, double ratio);
-void set_stretch(MatrixBody& body, double factor);
-/// Starts with the thickness along z multiplied by a factor: 0 flattens, below 0 inverts.
-void set_thickness(MatrixBody& body, double factor);
-void set_random(MatrixBody& body, double seed);
-/// Lets the free body fall flat on a plane at this speed [m/s].
-void set_impact(MatrixBody& body, double speed);
-/// Makes the outer half `ratio` times as stiff as the inner one.
-void set_contrast(MatrixBody& body, double ratio);
-void set_one_tetrahedron(MatrixBody& body, double edge);
-void set_levels(MatrixBody& body, double count);
-/// Moves level 1 along x by this number of beam lengths.
-void set_overlap(MatrixBody& body, double lengths);
+
+/// A line of the matrix: one property of the body that varies.
+struct MatrixLine {
+  /// Methods with which a line is run.
+  enum class Of { all, implicit_alone, him, explicit_alone };
+  const char* format;          ///< name of a case; %g stands for the value
+  std::vector<double> values;  ///< values in SI units, the most extreme last
+  void (*set)(MatrixBody& body, double value);
+  Of of = Of::all;
+};
+
+/// Returns the lines of the matrix.
+const std::vector<MatrixLine>& matrix_lines();
 
 /// Outcomes that a run may have. At least one is true.
 struct Expected {

@@ -142,6 +142,9 @@ struct ChosenMethod {
   std::string variant;       ///< a cycle's; else empty
 };
 
+/// Returns a method by its whole name, for example "cycle/rsv/equal+hybrid".
+ChosenMethod chosen_method(const std::string& name);
+
 /// Returns the methods of the options, with families, distributions and variants written out, none
 /// twice. Throws InputError for an unknown name.
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/core/error.hpp>
+#include <plica/core/keys.hpp>
 #include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/steppers.hpp>
@@ -65,8 +66,9 @@ const std::vector<std::string> families = {"single", "coarse", "cycle"};
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('/')); }
 
-// Splits a name such as "cycle/rsv/equal+hybrid" into method, distribution and variant
-ChosenMethod split(const std::string& name) {
+}  // namespace
+
+ChosenMethod chosen_method(const std::string& name) {
   const std::size_t plus = name.find('+');
   const std::string variant = plus == std::string::npos ? "" : name.substr(plus + 1),
                     before = name.substr(0, plus);
@@ -75,6 +77,8 @@ ChosenMethod split(const std::string& name) {
     return {before, {}, variant};
   return {before.substr(0, second), before.substr(second + 1), variant};
 }
+
+namespace {
 
 std::vector<std::string> computed_distributions() {
   std::vector<std::string> all = names(distributions());
@@ -231,7 +235,7 @@ std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOpti
     asked.insert(asked.begin() + 2, "single/v_cycle_euler");
   std::vector<ChosenMethod> chosen;
   for (const std::string& name : asked) {
-    const ChosenMethod one = split(name);
+    const ChosenMethod one = chosen_method(name);
     const bool is_family = std::ranges::find(families, one.method) != families.end();
     if (!is_family) check_method(problem, name, one);
     check_variant(options, name, one);

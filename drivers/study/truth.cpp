@@ -211,10 +211,12 @@ class TruthMaker {
       const auto largest = std::ranges::max_element(there.weights[a]) - there.weights[a].begin();
       common.push_back(there.vertices[a][static_cast<std::size_t>(largest)]);
     }
+    Body coarser = problem_.body;
+    keep_levels(coarser, 1, 1);
     for (Family& family : both) {
       if (family.name != family.element || stopped_) continue;  // jittered meshes are others
       family.common = common;
-      family.coarser = run(family, levels[1], levels[1].vertices);
+      family.coarser = run(family, coarser.levels[0], levels[1].vertices);
     }
   }
 

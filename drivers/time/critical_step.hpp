@@ -13,7 +13,7 @@ struct DampingLimit {
 
 /// Returns the largest stable step of an explicit integrator [s], see StabilityLimit. It is
 /// infinite for a free rigid level. Contact does not enter: it is implicit in the step, see
-/// cmake/docs/contact.md.
+/// cmake/docs/explanation/contact.md.
 /// @param K           stiffness of the elements, without damping
 /// @param eigenvalue  largest_eigenvalue() of K [1/s^2]
 /// @param beside      upper bound of the other contributions to w^2 [1/s^2]

@@ -68,8 +68,7 @@ class CentralDifferenceStep final : public Integrator<B> {
   }
 
   void reset_history() override { current_ = false; }
-  std::size_t bytes() const override { return f_.span() * sizeof(Real); }
-  void persist(Archive<B>& archive) override {
+  void name_fields(Archive<B>& archive) override {
     archive.number(current_);
     archive.field("the central difference's force", f_);
   }
@@ -118,7 +117,7 @@ class RungeKuttaStep final : public Integrator<B> {
     }
   }
 
-  std::size_t bytes() const override { return 3 * 6 * sizeof(Real) * start_.u.extent(0); }
+  void name_fields(Archive<B>& archive) override { archive.owns(start_, stage_, sum_); }
 
  private:
   State<B> start_, stage_, sum_;

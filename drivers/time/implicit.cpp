@@ -92,13 +92,11 @@ class Bdf2Step final : public ImplicitStep<B> {
         increment_("bdf2.increment", level.model.vertices) {}
 
   void reset_history() override { last_step_ = 0; }
-  std::size_t bytes() const override {
-    return ImplicitStep<B>::bytes() + 4 * start_.u.span() * sizeof(Real);
-  }
-  void persist(Archive<B>& archive) override {
-    ImplicitStep<B>::persist(archive);
+  void name_fields(Archive<B>& archive) override {
+    ImplicitStep<B>::name_fields(archive);
     archive.number(last_step_);
     archive.state("bdf2's increment", increment_);
+    archive.owns(start_);
   }
 
  protected:
@@ -177,13 +175,11 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   }
 
   void reset_history() override { carried_ = false; }
-  std::size_t bytes() const override {
-    return ImplicitStep<B>::bytes() + 3 * start_.u.span() * sizeof(Real);
-  }
-  void persist(Archive<B>& archive) override {
-    ImplicitStep<B>::persist(archive);
+  void name_fields(Archive<B>& archive) override {
+    ImplicitStep<B>::name_fields(archive);
     archive.number(carried_);
     archive.field("the acceleration", acceleration_);
+    archive.owns(start_);
   }
 
  protected:
@@ -253,8 +249,9 @@ class Sdirk2Step final : public ImplicitStep<B> {
  public:
   Sdirk2Step(const LevelData<B>& level, const IntegratorParts<B>& parts)
       : ImplicitStep<B>(level, parts), start_("sdirk2.start", level.model.vertices) {}
-  std::size_t bytes() const override {
-    return ImplicitStep<B>::bytes() + 2 * start_.u.span() * sizeof(Real);
+  void name_fields(Archive<B>& archive) override {
+    ImplicitStep<B>::name_fields(archive);
+    archive.owns(start_);
   }
 
  protected:

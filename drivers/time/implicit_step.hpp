@@ -38,9 +38,8 @@ class ImplicitStep : public Integrator<B> {
   }
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
-  std::size_t bytes() const override { return stages_.bytes(); }
-  void persist(Archive<B>& archive) override {
-    archive.number(surprised_), stages_.persist(archive);
+  void name_fields(Archive<B>& archive) override {
+    archive.number(surprised_), stages_.name_fields(archive);
   }
 
  protected:

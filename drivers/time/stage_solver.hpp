@@ -105,19 +105,16 @@ class StageSolver {
     if (carries()) all.insert({"pressure_updates", updates_});
     return all;
   }
-  std::size_t bytes() const {
-    return solver_->bytes() +
-           sizeof(Real) * (4 * change_.span() + dead_.span() + von_mises_.span() + volume_.span() +
-                           carrying_.extent(0) + last_carried_.extent(0));
-  }
-  void persist(Archive<B>& archive) {
+  void name_fields(Archive<B>& archive) {
     for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &searches_})
       archive.number(*count);
     archive.number(residual_), archive.number(projecting_);
     if (carries())
       archive.number(updates_), archive.number(fresh_),
           archive.field("the carried pressures", carried_);
-    solver_->persist(archive);
+    archive.owns(base_, right_side_, change_, dead_, carrying_, last_carried_, von_mises_, volume_,
+                 blocks_.view(), result_);
+    solver_->name_fields(archive);
   }
 
  private:

@@ -222,31 +222,6 @@ struct ContactRecords {
   Indices<B> partner;  ///< [points] triangle that each point was near last; -1: none
   ContactTranspose<B> transpose;
 
-  /// Calls use(field) for all fields of a level's own, and for those that levels share.
-  /// @{
-  template <class Self, class Use>
-  static void each_own(Self& r, const Use& use) {
-    auto& W = r.transpose;
-    use(r.list.item), use(r.list.count), use(r.touching), use(r.near), use(r.close), use(r.places),
-        use(r.fastest), use(r.point);
-    use(r.weight), use(r.law_of), use(r.normal), use(r.depth), use(r.way), use(r.stretch),
-        use(r.force), use(r.drift);
-    use(r.response), use(r.cap), use(r.block), use(r.concavity), use(r.partner),
-        use(W.vertices.item);
-    use(W.vertices.count), use(W.place), use(W.filled), use(W.first), use(W.last), use(W.record),
-        use(W.weight);
-  }
-  template <class Self, class Use>
-  static void each_shared(Self& r, const Use& use) {
-    use(r.law), use(r.body), use(r.grasps.memory), use(r.grasps.left_out);
-    use(r.attached.attachment), use(r.attached.memory), use(r.attached.triangle),
-        use(r.attached.weight);
-    use(r.mesh.corner), use(r.mesh.first), use(r.mesh.triangle), use(r.mesh.first_edge),
-        use(r.mesh.edge);
-    use(r.mesh.side);
-  }
-  /// @}
-
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs ? 2 : 0); }
   KOKKOS_INLINE_FUNCTION int slots() const { return rows() * points + obstacles * faces; }
   KOKKOS_INLINE_FUNCTION int of_point(int row, int p) const { return row * points + p; }

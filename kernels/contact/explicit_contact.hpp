@@ -22,7 +22,7 @@
 //
 // Sweeps that have not converged do not creep: the stretch adds up the way that was gone until it
 // holds, however little of its force the sweeps find. Why no number of sweeps takes stability away
-// is in cmake/docs/contact.md.
+// is in cmake/docs/explanation/contact.md.
 namespace plica {
 
 /// Data of a step for the sweeps.

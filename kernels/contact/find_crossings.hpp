@@ -22,11 +22,15 @@ struct FindEdges {
   KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const {
     return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)};
   }
-  /// Returns true where an edge may cross another.
+  /// Returns true where an edge may cross another. An edge of triangles that the grid lists is no
+  /// longer than a few cells.
   KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
     const Attachments<B>& attached = find.records.attached;
-    return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) &&
-           !attached.ties(end(e, 1)) && may_be_steep(at(e));
+    if (end(e, 2) < 0 || end(e, 3) < 0 || attached.ties(end(e, 0)) || attached.ties(end(e, 1)))
+      return false;
+    const SurfaceEdge<Real> edge = at(e);
+    return is_finite(edge.begin) && is_finite(edge.end) && is_finite(edge.left) &&
+           is_finite(edge.right) && may_be_steep(edge);
   }
   /// Calls look(own edge, other edge) for all edges that begin in p, and all with a higher number
   /// that may cross them. The order is any; some come twice.

@@ -100,6 +100,7 @@ struct FindPairs {
     int on[3], n = 0;
     for (int c = 0; c < 3; ++c)
       if (w[c] > 0) on[n++] = corner(t, c);
+    if (n == 0) return;  // weights that are not finite
     if (n == 3) return look(t);
     for (int s = records.mesh.first(on[0]); s < records.mesh.first(on[0] + 1); ++s)
       if (const int other = records.mesh.triangle(s); n == 1 || has(other, on[1])) look(other);

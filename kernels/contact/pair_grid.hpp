@@ -13,6 +13,12 @@
 // device decides this, and leaves out the work.
 namespace plica {
 
+/// Returns whether all components are finite.
+template <class Real>
+KOKKOS_INLINE_FUNCTION bool is_finite(const Vec3<Real>& x) {
+  return Kokkos::isfinite(x[0]) && Kokkos::isfinite(x[1]) && Kokkos::isfinite(x[2]);
+}
+
 /// Box along the axes.
 template <class Real>
 struct Box3 {
@@ -28,6 +34,9 @@ struct Box3 {
   KOKKOS_INLINE_FUNCTION Real longest_side() const {
     return Kokkos::max(high[0] - low[0], Kokkos::max(high[1] - low[1], high[2] - low[2]));
   }
+  /// Returns whether the box ends. In a state that is not sound it may reach into any number of
+  /// cells.
+  KOKKOS_INLINE_FUNCTION bool ends() const { return is_finite(low) && is_finite(high); }
   KOKKOS_INLINE_FUNCTION bool meets(const Box3& other) const {
     bool meet = true;
     for (int k = 0; k < 3; ++k) meet = meet && low[k] <= other.high[k] && other.low[k] <= high[k];
@@ -77,14 +86,6 @@ struct PairGrid {
   Indices<B> crossings;
   Indices<B> crossing;  ///< [points * most_crossings * 2] pairs: the own edge, the other
 
-  /// Calls use(field) for all fields of the grid's own.
-  template <class Self, class Use>
-  static void each_own(Self& g, const Use& use) {
-    use(g.built), use(g.mean), use(g.moved), use(g.reach), use(g.stale), use(g.extent),
-        use(g.width), use(g.first);
-    use(g.filled), use(g.item), use(g.ridge), use(g.close), use(g.listed), use(g.crossings);
-    use(g.crossing);
-  }
   /// Returns how far two points can move against each other in a step of h seconds [m]. It is
   /// bounded, for states that are not sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
@@ -111,9 +112,11 @@ struct PairGrid {
   KOKKOS_INLINE_FUNCTION GridCell cell_of(const Vec3<Real>& at) const {
     return {cell(at[0]), cell(at[1]), cell(at[2])};
   }
-  /// Calls use(cell, its bucket) for all cells that a box reaches into.
+  /// Calls use(cell, its bucket) for all cells that a box reaches into; for none where it has no
+  /// end.
   template <class Use>
   KOKKOS_INLINE_FUNCTION void each_cell(const Box3<Real>& box, const Use& use) const {
+    if (!box.ends()) return;
     const GridCell low = cell_of(box.low), high = cell_of(box.high);
     for (int i = low.i; i <= high.i; ++i)
       for (int j = low.j; j <= high.j; ++j)
@@ -193,7 +196,9 @@ struct JudgeGrid {
     const Real least = grid.limits.reach, needed = Kokkos::max(least, grid.closing(h));
     const bool fits = needed <= grid.reach(0) && grid.reach(0) <= Kokkos::max(least, 4 * needed);
     if (!fits) grid.reach(0) = needed > least ? Real(1.5) * needed : least;
-    grid.stale(0) = fits && grid.moved(0) <= half * half ? 0 : 1;
+    // maxima leave out NaN, sums do not
+    const bool sound = Kokkos::isfinite(grid.mean(0) + grid.mean(1) + grid.mean(2));
+    grid.stale(0) = fits && sound && grid.moved(0) <= half * half ? 0 : 1;
   }
 };
 
@@ -203,7 +208,9 @@ struct MeasureTriangles {
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION Sums<2, 1> operator()(int t) const {
     if (!(grid.stale(0) > 0)) return {};
-    const auto side = static_cast<double>(grid.box_of(corner, t).longest_side());
+    const auto box = grid.box_of(corner, t);
+    if (!box.ends()) return {};
+    const auto side = static_cast<double>(box.longest_side());
     return {{side, side}};
   }
 };

@@ -3,6 +3,7 @@
 #include <plica/core/level_data.hpp>
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 

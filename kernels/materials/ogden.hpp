@@ -8,7 +8,7 @@ namespace plica {
 
 /// Ogden's law: W = sum over terms of c_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3), up to six
 /// terms. l are the isochoric principal stretches; l^2 are the eigenvalues of C. Ogden, Proc. R.
-/// Soc. A 326, 1972. There are three conventions for mu, see cmake/docs/materials.md: c =
+/// Soc. A 326, 1972. There are three conventions for mu, see cmake/docs/reference/materials.md: c =
 /// mu/alpha^2, mu/alpha or 2 mu/alpha^2. Beyond stretches of 1/10 and 10 the powers of l^2 are
 /// continued by their Taylor polynomial of second order. A power below 0 makes a barrier that
 /// flattened elements do not come back through.

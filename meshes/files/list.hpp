@@ -93,6 +93,19 @@ ParsedMesh parse_tetgen(const FileBytes& file, MeshReport& report);
 WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh,
                          const MeshGroups& groups);
 
+/// Reads the mesh of an input file of Abaqus or CalculiX (their manuals, "Input syntax rules"):
+/// *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *SOLID SECTION, of one part and one instance. Sets
+/// become regions and vertex sets as DeckGather says. Other keywords are left out, and named in a
+/// note; those that make nodes and elements in other ways are refused. Coordinates are read as
+/// metres. The parser is as strict as parse_msh().
+ParsedMesh parse_inp(const FileBytes& file, MeshReport& report);
+
+/// Reads the mesh of a FEBio file, version 2 to 4 (its manual, "Geometry section" and "Mesh
+/// section"): nodes, elements, node sets, surfaces, edges and element sets. Each part of elements
+/// is a set with a material, see DeckGather. Coordinates are read as metres. The parser is as
+/// strict as parse_msh().
+ParsedMesh parse_feb(const FileBytes& file, MeshReport& report);
+
 /// Reads the vertices and faces of a Wavefront OBJ file. Vertices are numbered from 1, or backwards
 /// from the last vertex with minus signs. Faces with more than three corners are cut into triangles
 /// from one of their corners, so that all triangles look to one side. Textures, normals, groups,
@@ -145,6 +158,8 @@ inline constexpr MeshFormat mesh_formats[] = {
     {"vtu", "VTK XML, an unstructured grid in one piece", parse_vtu},
     {"ele", "TetGen, with the .node file beside it", parse_tetgen},
     {"node", "TetGen, with the .ele file beside it", parse_tetgen},
+    {"inp", "Abaqus and CalculiX, the mesh of one part", parse_inp},
+    {"feb", "FEBio 2 to 4, its mesh", parse_feb},
 };
 
 /// All formats that hold triangles.
@@ -158,6 +173,8 @@ inline constexpr MeshFormat surface_formats[] = {
     {"vtu", "VTK XML, the faces of an unstructured grid", parse_vtu},
     {"msh", "Gmsh MSH, its faces", parse_msh},
     {"mesh", "Medit, its faces", parse_medit},
+    {"inp", "Abaqus and CalculiX, shells and rigid faces", parse_inp},
+    {"feb", "FEBio, its shells", parse_feb},
 };
 
 /// File format of meshes or surfaces that can be written.

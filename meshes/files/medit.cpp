@@ -45,7 +45,7 @@ class MeditParser {
       group.name = name_of(key.second), group.dimension = key.first, group.tag = key.second;
       raw_.groups.push_back(std::move(group));
     }
-    name_regions(raw_, regions_, name_of);
+    raw_.numbers.push_back({"reference", std::move(regions_), name_of, true, {}});
     return std::move(raw_);
   }
 

@@ -1,41 +1,74 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/meshes/files/file_bytes.hpp>
+#include <plica/meshes/files/format_by_content.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 
 namespace plica {
 
-TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report, Flaws flaws) {
-  format_of(path, mesh_formats, "mesh");  // reports a wrong extension before a missing file
-  return read_mesh(load_file(path), report, flaws);
+namespace {
+
+// Loads a file. A wrong extension is reported before a missing file
+template <class Formats>
+FileBytes loaded(const std::filesystem::path& path, const Formats& formats,
+                 const std::string& kind) {
+  if (std::error_code error; !std::filesystem::exists(path, error)) format_of(path, formats, kind);
+  return load_file(path);
 }
 
-TetMesh read_mesh(const FileBytes& file, MeshReport* report, Flaws flaws) {
+// Parses a file in the format that its first bytes tell, else its extension
+template <class Formats>
+ParsedMesh parsed(const FileBytes& file, const Formats& formats, const std::string& kind,
+                  MeshReport& report, const MeshFormat** taken = nullptr) {
+  const std::optional<KnownContent> content = known_content(file.bytes);
+  const MeshFormat* format = nullptr;
+  if (!content || content->names(extension_of(file.name))) {
+    format = &format_of(file.name, formats, kind);
+  } else {
+    for (const MeshFormat& one : formats)
+      if (!format && content->extension == one.extension) format = &one;
+    const std::string by_content = "is " + content->description + " by its first bytes";
+    if (!format)
+      refuse(file.name, {},
+             by_content + "; expected a " + kind + " file" +
+                 (content->advice.empty() ? "" : ": " + content->advice));
+    report.notes.push_back(by_content + ", whatever its name says, and is read so");
+  }
+  if (taken) *taken = format;
+  return format->parse(file, report);
+}
+
+}  // namespace
+
+TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report,
+                  const ReadOptions& options) {
+  return read_mesh(loaded(path, mesh_formats, "mesh"), report, options);
+}
+
+TetMesh read_mesh(const FileBytes& file, MeshReport* report, const ReadOptions& options) {
   MeshReport found;
-  const ParsedMesh raw = format_of(file.name, mesh_formats, "mesh").parse(file, found);
-  TetMesh mesh = validated_mesh(raw, found, flaws);
+  TetMesh mesh = validated_mesh(parsed(file, mesh_formats, "mesh", found), found, options);
   if (report) *report = std::move(found);
   return mesh;
 }
 
-TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report) {
-  // reports a wrong extension before a missing file
-  format_of(path, surface_formats, "surface");
-  return read_surface(load_file(path), report);
+TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report,
+                             double weld) {
+  return read_surface(loaded(path, surface_formats, "surface"), report, weld);
 }
 
-TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report) {
+TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report, double weld) {
   MeshReport found;
   SurfaceReport repaired;
-  const ParsedMesh raw = format_of(file.name, surface_formats, "surface").parse(file, found);
-  TriangleSurface surface = validated_surface(raw, found, repaired);
+  const ParsedMesh raw = parsed(file, surface_formats, "surface", found);
+  TriangleSurface surface = validated_surface(raw, found, repaired, weld);
   if (report) *report = std::move(repaired);
   return surface;
 }
 
-std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) {
+std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path, double weld) {
   const auto holds = [](const auto& formats, const std::string& extension) {
     return std::ranges::any_of(
         formats, [&](const MeshFormat& format) { return extension == format.extension; });
@@ -43,18 +76,19 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) 
   std::vector<MeshFormat> formats(std::begin(mesh_formats), std::end(mesh_formats));
   for (const MeshFormat& format : surface_formats)
     if (!holds(mesh_formats, format.extension)) formats.push_back(format);
-  const MeshFormat& format = format_of(path, formats, "mesh or surface");
+  constexpr const char* kind = "mesh or surface";
   MeshReport report;
-  const ParsedMesh raw = format.parse(load_file(path), report);
-  const bool may_be_mesh = holds(mesh_formats, format.extension),
-             may_be_surface = holds(surface_formats, format.extension);
+  const MeshFormat* format = nullptr;
+  ParsedMesh raw = parsed(loaded(path, formats, kind), formats, kind, report, &format);
+  const bool may_be_mesh = holds(mesh_formats, format->extension),
+             may_be_surface = holds(surface_formats, format->extension);
   if (!may_be_mesh ||
       (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
     ReadSurface read;
-    read.surface = validated_surface(raw, report, read.report);
+    read.surface = validated_surface(raw, report, read.report, weld);
     return read;
   }
-  TetMesh mesh = validated_mesh(raw, report);
+  TetMesh mesh = validated_mesh(std::move(raw), report);
   return ReadMesh{std::move(mesh), std::move(report)};
 }
 

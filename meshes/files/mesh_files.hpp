@@ -12,30 +12,34 @@
 
 namespace plica {
 
-/// Reads a tetrahedral mesh in the format its extension names (see list.hpp), in any case of
-/// letters.
-/// @param path    path of the file
-/// @param report  if given, gets what was repaired and left out
-/// @param flaws   kept: a mesh for repair_mesh(), whose tetrahedra may have no volume
+/// Reads a tetrahedral mesh. Its format is what the first bytes of the file say; formats without
+/// such bytes (OBJ, TetGen) are told by the extension, in any case of letters. A note in the report
+/// says where the two differ.
+/// @param path     path of the file
+/// @param report   if given, gets what was repaired and left out
+/// @param options  regions that are taken and left out; flaws for repair_mesh(); second order
 /// @throw InputError for an unknown extension, and as the parser of the format and validated_mesh()
 /// do
 TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
-                  Flaws flaws = Flaws::refused);
+                  const ReadOptions& options = {});
 
-/// Reads a tetrahedral mesh from a file in memory, in the format its extension names.
+/// Reads a tetrahedral mesh from a file in memory.
 TetMesh read_mesh(const FileBytes& file, MeshReport* report = nullptr,
-                  Flaws flaws = Flaws::refused);
+                  const ReadOptions& options = {});
 
-/// Reads the triangles of a surface in the format its extension names (see list.hpp), in any case
-/// of letters.
+/// Reads the triangles of a surface, in a format that is told as that of a mesh.
 /// @param path    path of the file
 /// @param report  if given, gets what was repaired and left out, and whether the surface is closed
+/// @param weld    distance up to which points on open edges become one, as a part of the diagonal
+/// of the box; 0: they stay
 /// @throw InputError for an unknown extension, and as the parser of the format and
 /// validated_surface() do
-TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report = nullptr);
+TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report = nullptr,
+                             double weld = weld_distance);
 
-/// Reads the triangles of a surface from a file in memory, in the format its extension names.
-TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report = nullptr);
+/// Reads the triangles of a surface from a file in memory.
+TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report = nullptr,
+                             double weld = weld_distance);
 
 /// Mesh that was read from a file.
 struct ReadMesh {
@@ -50,7 +54,8 @@ struct ReadSurface {
 
 /// Reads a mesh, or a surface if the file has triangles and no tetrahedron.
 /// @throw InputError as read_mesh() and read_surface() do
-std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path);
+std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path,
+                                             double weld = weld_distance);
 
 /// Returns the bytes of a mesh file in the format that its extension names. Nothing is written to
 /// disk. Coordinates keep every bit unless a format says otherwise. TetGen's format is two files,

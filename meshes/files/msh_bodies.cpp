@@ -65,15 +65,21 @@ void MshGather::add_vectors(const std::string& name, bool of_nodes, std::int64_t
   }
 }
 
-std::string MshGather::name_of(const Group& group) const {
-  const auto found = names_.find(group);
-  return found != names_.end() ? found->second : "physical_" + std::to_string(group.second);
+std::string MshGather::name_of(const Group& group, const std::map<Group, std::string>& names) {
+  const auto found = names.find(group);
+  return found != names.end() ? found->second : "physical_" + std::to_string(group.second);
 }
 
 ParsedMesh MshGather::take() {
-  name_regions(raw_, tet_groups_, [this](std::int64_t tag) { return name_of({3, tag}); });
+  raw_.numbers.push_back({"physical",
+                          std::move(tet_groups_),
+                          [names = names_](std::int64_t tag) {
+                            return name_of({3, tag}, names);
+                          },
+                          true,
+                          {}});
   for (auto& [key, group] : groups_) {
-    group.name = name_of(key), group.dimension = key.first, group.tag = key.second;
+    group.name = name_of(key, names_), group.dimension = key.first, group.tag = key.second;
     raw_.groups.push_back(std::move(group));
   }
   return std::move(raw_);

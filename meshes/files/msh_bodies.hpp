@@ -61,7 +61,7 @@ class MshGather {
 
  private:
   using Group = std::pair<int, std::int64_t>;  // dimension, physical tag
-  std::string name_of(const Group& group) const;
+  static std::string name_of(const Group& group, const std::map<Group, std::string>& names);
 
   ParsedMesh raw_;
   MeshReport& report_;

@@ -26,7 +26,8 @@ class MshParser {
   void nodes();
   void elements();
   void data();
-  std::vector<std::string> data_heading(const std::string& kind);
+  template <class Read>
+  auto data_heading(const std::string& kind, const Read& read);
   void skip(const std::string& name);
   std::int64_t count_of(const std::string& kind, std::int64_t fewest);
   void end_of(const std::string& section, const std::string& after = "");
@@ -188,18 +189,20 @@ void MshParser::elements() {
   end_of(version_ == 1 ? "ELM" : "Elements", what);
 }
 
-/// Returns the lines of a heading of a data section; the line before them counts them.
-std::vector<std::string> MshParser::data_heading(const std::string& kind) {
+/// Returns what read() makes of each line of a heading of a data section; the line before them
+/// counts them.
+template <class Read>
+auto MshParser::data_heading(const std::string& kind, const Read& read) {
   if (!lines_.next() || lines_.words().size() != 1)
     lines_.expected("the number of " + kind + " tags");
   const std::int64_t count =
       TextNumbers(lines_).checked_count(lines_.integer(0, "the number of " + kind + " tags"),
                                         "the number of " + kind + " tags", NumberType::int8, 1);
-  std::vector<std::string> all;
+  std::vector<decltype(read(kind))> all;
   for (std::int64_t i = 1; i <= count; ++i) {
-    if (!lines_.next())
-      lines_.expected(kind + " tag " + std::to_string(i) + " of " + std::to_string(count));
-    all.emplace_back(lines_.text());
+    const std::string what = kind + " tag " + std::to_string(i) + " of " + std::to_string(count);
+    if (!lines_.next()) lines_.expected(what);
+    all.push_back(read(what));
   }
   return all;
 }
@@ -207,22 +210,25 @@ std::vector<std::string> MshParser::data_heading(const std::string& kind) {
 // Reads a data section with three components and a name; others are skipped as unknown sections are
 void MshParser::data() {
   const std::string section(lines_.text());
-  const std::vector<std::string> texts = data_heading("string"), reals = data_heading("real");
+  const auto line = [&](const std::string&) { return std::string(lines_.text()); };
+  const std::vector<std::string> texts = data_heading("string", line),
+                                 reals = data_heading("real", line);
   const Place before = lines_.place();
-  const std::vector<std::string> whole = data_heading("integer");  // time step, components, count
+  const std::vector<std::int64_t> whole =  // time step, components, count
+      data_heading("integer", [&](const std::string& what) { return lines_.integer(0, what); });
   if (whole.size() < 3)
     refuse(file().name, before,
            section + " has " + std::to_string(whole.size()) +
                " integer tags; expected 3 or more: time step, components, count");
   std::string name = texts.empty() ? "" : texts.front();
   std::erase(name, '"');
-  if (whole[1] != "3" || name.empty()) return skip(section);
+  if (whole[1] != 3 || name.empty()) return skip(section);
   body([&](Numbers& numbers) {
-    const std::int64_t count = numbers.checked_count(std::atoll(whole[2].c_str()),
-                                                     "the number of vectors", NumberType::int32, 4);
+    const std::int64_t count =
+        numbers.checked_count(whole[2], "the number of vectors", NumberType::int32, 4);
     return gather_.add_vectors(name, section == "$NodeData", count, numbers), 0;
   });
-  end_of(section.substr(1), whole[2] + " vectors");
+  end_of(section.substr(1), std::to_string(whole[2]) + " vectors");
 }
 
 ParsedMesh MshParser::parse() {

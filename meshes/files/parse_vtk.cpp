@@ -87,8 +87,7 @@ NumberType legacy_vtk_type(std::size_t word, const TextLines& lines) {
     if (name == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  const std::string quoted = shown(name);
-  lines.fail(unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
+  lines.fail(unknown_name("type of numbers", plain(name), choices));
 }
 
 void skip_vtk_metadata(TextLines& lines) {

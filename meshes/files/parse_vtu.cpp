@@ -25,7 +25,7 @@ class VtuParser {
   void read_points();
   void read_cells();
   void read_polygons();
-  void read_regions();
+  void read_numbers();
   void read_vectors();
   std::vector<PlacedInteger> integers(const std::string& section, const char* name,
                                       std::int64_t count);
@@ -148,16 +148,17 @@ void VtuParser::read_polygons() {
   }
 }
 
-void VtuParser::read_regions() {
+// Reads the arrays with one number per cell; that of name "region" must be one
+void VtuParser::read_numbers() {
   const std::int64_t cells = attribute_count(*piece_, "NumberOfCells", file_);
   for (const XmlElement& array : cell_data_) {
     const auto name = array.attributes.find("Name"),
                components = array.attributes.find("NumberOfComponents");
     const std::string called = name == array.attributes.end() ? "" : name->second;
     const bool single = components == array.attributes.end() || components->second == "1";
-    if (called != "region" &&
-        (!single || attribute(array, "type", file_).find("Int") == std::string::npos))
-      continue;
+    const std::string& kind = attribute(array, "type", file_);
+    const bool numeric = kind.find("Int") != std::string::npos || kind.starts_with("Float");
+    if (called != "region" && (!single || !numeric || called.empty())) continue;
     arrays_.read(array, [&](Numbers& numbers, NumberType type) {
       const std::int64_t width = single ? 1 : attribute_count(array, "NumberOfComponents", file_);
       numbers.checked_count(cells, "NumberOfCells", type, std::max<std::int64_t>(width, 1));
@@ -198,7 +199,7 @@ ParsedMesh VtuParser::parse() {
     read_polygons();
   } else {
     read_cells();
-    read_regions();
+    read_numbers();
     read_vectors();
   }
   report_.format = (polygonal_ ? "VTP, " : "VTU, ") + needed("Points", "").attributes.at("format");

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/meshes/files/parsed_mesh.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -17,18 +17,13 @@ Point RawVectors::at(std::int64_t tag) const {
   return found == place.end() ? Point(Point::Zero()) : values[found->second];
 }
 
-void name_regions(ParsedMesh& raw, const std::vector<std::int64_t>& numbers,
-                  const std::function<std::string(std::int64_t)>& name_of) {
-  const std::set<std::int64_t> used(numbers.begin(), numbers.end());
-  if (used.empty() || (used.size() == 1 && used.contains(0))) return;
-  std::map<std::string, int> index;
-  std::map<std::int64_t, int> region;
-  for (const std::int64_t number : used) {
-    const auto [found, is_new] = index.try_emplace(name_of(number), static_cast<int>(index.size()));
-    region[number] = found->second;
-    if (is_new) raw.region_names.push_back(found->first), raw.region_tags.push_back(number);
-  }
-  for (std::size_t t = 0; t < raw.tets.size(); ++t) raw.tets[t].region = region.at(numbers[t]);
+void RawNumbers::add(double value) {
+  if (!wrong.empty()) return;
+  constexpr double most = 9e18;  // an integer of 64 bits
+  if (std::abs(value) <= most && value == std::floor(value))
+    values.push_back(static_cast<std::int64_t>(value));
+  else
+    wrong = number(value);
 }
 
 VertexNumbers::VertexNumbers(const ParsedMesh& raw) : raw_(raw) {
@@ -234,6 +229,10 @@ std::size_t add_element(const ElementKind& kind, std::int64_t tag,
   }
   const std::size_t before = raw.tets.size();
   if (corners.size() == 4) {
+    if (vertices.size() == 10 && kind.name != std::string_view("Bezier tetrahedron"))
+      std::copy_n(
+          vertices.begin() + 4, 6,
+          raw.second_order.emplace_back(before, std::array<std::int64_t, 6>{}).second.begin());
     raw.tets.push_back({tag, {corners[0], corners[1], corners[2], corners[3]}, 0, place});
   } else {
     ++report.cut[kind.name];

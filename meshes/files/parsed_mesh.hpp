@@ -47,6 +47,9 @@ struct MeshReport {
   std::map<std::string, int> cut;  ///< cells cut into tetrahedra: kind of cell -> how many
   /// elements of higher order, of which only the corners were used: kind -> how many
   std::map<std::string, int> linearised;
+  int split = 0;  ///< second-order tetrahedra that were split in eight by the nodes on their edges
+  std::map<std::string, int> left_out;        ///< regions left out: name -> tetrahedra
+  std::vector<std::string> notes;             ///< choices of the reader that the user should know
   std::vector<std::string> skipped_sections;  ///< sections that the reader does not know
   std::vector<std::int64_t> vertex_tags;      ///< per vertex of the mesh its number in the file
   /// per tetrahedron of the mesh its number in the file
@@ -115,6 +118,19 @@ struct RawVectors {
   Point at(std::int64_t tag) const;
 };
 
+/// Numbers of the tetrahedra that may tell their regions.
+struct RawNumbers {
+  std::string name;                  ///< name of the array in the file, or of the format's own kind
+  std::vector<std::int64_t> values;  ///< one per tetrahedron; only used where `wrong` is empty
+  /// name of the region with a number
+  std::function<std::string(std::int64_t)> name_of;
+  bool own = false;   ///< true: the format has them for regions
+  std::string wrong;  ///< first value that is no integer; empty: all are integers
+
+  /// Adds a value, which may be a real number that is an integer, such as 2.0.
+  void add(double value);
+};
+
 /// Unchecked content of a mesh file, as the parser of any format returns it.
 struct ParsedMesh {
   std::string file;
@@ -128,17 +144,15 @@ struct ParsedMesh {
   BadFaces bad_faces;                     ///< invalid faces, left out
   std::vector<std::string> region_names;  ///< unique; empty: one nameless region
   std::vector<std::int64_t> region_tags;  ///< numbers of the regions in the file
-  std::vector<RawVectors> vectors;        ///< named vectors: those of cells before those of points
-  std::vector<RawGroup> groups;           ///< groups whose vertices become the set of their name
-  std::vector<RawMention> others;         ///< vertices of points and lines: only checked
+  std::vector<RawNumbers> numbers;        ///< numbers of which choose_regions() takes one
+  /// per second-order tetrahedron its index in `tets` and the nodes on its edges, in any order
+  std::vector<std::pair<std::size_t, std::array<std::int64_t, 6>>> second_order;
+  std::vector<RawVectors> vectors;  ///< named vectors: those of cells before those of points
+  std::vector<RawGroup> groups;     ///< groups whose vertices become the set of their name
+  std::vector<RawMention> others;   ///< vertices of points and lines: only checked
   /// vertices of elements of higher order that are no corners
   std::vector<RawMention> middles;
 };
-
-/// Makes regions from a number per tetrahedron, in ascending order. Numbers with one name are one
-/// region. Where all numbers are 0 there is one nameless region.
-void name_regions(ParsedMesh& raw, const std::vector<std::int64_t>& numbers,
-                  const std::function<std::string(std::int64_t)>& name_of);
 
 /// Map from the numbers of vertices in a file to their indices in raw.vertices.
 class VertexNumbers {
@@ -178,7 +192,8 @@ void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Pla
               ParsedMesh& raw);
 
 /// Adds an element of any kind. Cells become tetrahedra, faces become triangles or polygons; points
-/// and lines are only checked. Elements of higher order are reduced to their corners.
+/// and lines are only checked. Elements of higher order are reduced to their corners; the nodes on
+/// the edges of second-order tetrahedra are kept for split_second_order().
 ///
 /// A cell is cut from its vertex with the lowest number. Each quadrangle across from this vertex is
 /// cut from its own lowest vertex. Two cells of any kind that share a quadrangle thus cut it in one

@@ -103,8 +103,7 @@ NumberType PlyParser::type(std::size_t word) const {
     if (lines_.words()[word] == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  const std::string quoted = shown(lines_.words()[word]);
-  lines_.fail(unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
+  lines_.fail(unknown_name("type of numbers", plain(lines_.words()[word]), choices));
 }
 
 void PlyParser::property() {

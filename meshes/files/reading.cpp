@@ -3,9 +3,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <plica/meshes/files/reading.hpp>
+#include <type_traits>
 
 namespace plica {
 
@@ -14,15 +16,40 @@ namespace {
 constexpr std::string_view blanks = " \t\r\v\f";
 
 // Converts a word to a number; returns whether that succeeded. std::from_chars() does not accept a
-// leading plus sign.
+// leading plus sign. A real number that is too large is infinite, and one too small is 0.
 template <typename Number>
 bool parse(std::string_view word, Number& value) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
+  if (end != word.data() + word.size()) return false;
+  if constexpr (std::is_floating_point_v<Number>)
+    if (error == std::errc::result_out_of_range)
+      return value = std::strtod(std::string(word).c_str(), nullptr), true;
+  return error == std::errc();
 }
 
 }  // namespace
+
+std::optional<double> number_in(std::string_view word) {
+  double value = 0.0;
+  return parse(word, value) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::int64_t> integer_in(std::string_view word) {
+  std::int64_t value = 0;
+  return parse(word, value) ? std::optional(value) : std::nullopt;
+}
+
+std::int64_t LineNumbers::of(std::size_t byte) {
+  if (byte < at_) at_ = 0, line_ = 1;
+  for (; at_ < std::min(byte, text_.size()); ++at_) line_ += text_[at_] == '\n';
+  return line_;
+}
+
+std::string plain(std::string_view input) {
+  const std::string quoted = shown(input);
+  return quoted.substr(1, quoted.size() - 2);
+}
 
 std::string lower_case(std::string_view word) {
   std::string text(word);

@@ -2,6 +2,7 @@
 #pragma once
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <plica/meshes/files/file_bytes.hpp>
 #include <string>
 #include <string_view>
@@ -11,6 +12,27 @@ namespace plica {
 
 /// Returns the word with its letters in lower case.
 std::string lower_case(std::string_view word);
+
+/// Returns input for an error message as shown() does, without quotes.
+std::string plain(std::string_view input);
+
+/// Returns the number that a word is, which may be infinite or NaN; nothing where it is none.
+std::optional<double> number_in(std::string_view word);
+/// Returns the integer that a word is; nothing where it is none below 2^63.
+std::optional<std::int64_t> integer_in(std::string_view word);
+
+/// Map from bytes to lines of a text; fast for places that mostly come in ascending order.
+class LineNumbers {
+ public:
+  explicit LineNumbers(std::string_view text) : text_(text) {}
+  /// Returns the line of a byte, from 1.
+  std::int64_t of(std::size_t byte);
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::int64_t line_ = 1;
+};
 
 /// Reader of text line by line, as words between blanks. Every error names the line. The number of
 /// bytes left is known, so that an absurd count is refused before memory is allocated. Lines may be

@@ -68,23 +68,25 @@ void read_tets(const FileBytes& file, ParsedMesh& raw, MeshReport& report) {
                             static_cast<int>(corners), 4};
   const std::int64_t attributes = numbers.count(integer, "the number of attributes", integer, 1);
   numbers.end(heading);
-  std::vector<std::int64_t> regions;
+  std::vector<RawNumbers> columns(static_cast<std::size_t>(attributes));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string name = "attribute" + (k > 0 ? std::to_string(k + 1) : "");
+    columns[k].name = name, columns[k].own = k == 0;
+    columns[k].name_of = [name](std::int64_t value) { return name + "_" + std::to_string(value); };
+  }
   for (std::int64_t i = 1; i <= count; ++i) {
     numbers.begin("tetrahedron", i, count);
     const std::int64_t tag = numbers.integer(integer, "the number of a tetrahedron");
     const Place place = numbers.place();
     std::vector<std::int64_t> vertices(static_cast<std::size_t>(corners));
     for (std::int64_t& v : vertices) v = numbers.integer(integer, "a node of a tetrahedron");
-    regions.push_back(attributes > 0
-                          ? numbers.integer(integer, "the attribute of a tetrahedron, its region")
-                          : 0);
-    numbers.skip(attributes - 1, real, "an attribute of a tetrahedron");
+    for (RawNumbers& column : columns)
+      column.add(numbers.any_number(real, "an attribute of a tetrahedron"));
     numbers.end("a tetrahedron");
     add_element(kind, tag, vertices, place, raw, report);
   }
   check_end(lines, count, "tetrahedra");
-  name_regions(raw, regions,
-               [](std::int64_t number) { return "attribute_" + std::to_string(number); });
+  raw.numbers = std::move(columns);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/parsed_mesh.hpp>
+#include <plica/meshes/files/regions.hpp>
+#include <plica/meshes/files/split_second_order.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 #include <set>
 #include <sstream>
@@ -93,7 +95,8 @@ void refuse_folded(const ParsedMesh& raw, const VertexNumbers& numbering) {
     const RawTet& first = raw.tets[raw.cut[c]];
     if (above && below)
       refuse(raw, first.place, "element ", first.tag,
-             " is folded: cut into tetrahedra, some would be inside out");
+             " is folded: cut into tetrahedra, some would be inside out",
+             raw.second_order.empty() ? "" : "; order: linear takes its corners alone");
   }
 }
 
@@ -234,12 +237,16 @@ void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
 
 }  // namespace
 
-TetMesh validated_mesh(const ParsedMesh& raw, MeshReport& report, Flaws flaws) {
+TetMesh validated_mesh(ParsedMesh raw, MeshReport& report, const ReadOptions& options) {
   if (raw.tets.empty()) refuse(raw, {}, "the file holds no tetrahedron");
+  choose_regions(raw, options.regions, report);
+  leave_out_regions(raw, options.leave_out, report);
+  if (options.order == SecondOrder::split) split_second_order(raw, report);
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));
 
   const VertexNumbers numbering(raw);
+  const Flaws flaws = options.flaws;
   TetMesh mesh;
   mesh.region_names = raw.region_names;
   mesh.vertices.reserve(raw.vertices.size());

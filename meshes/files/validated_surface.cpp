@@ -7,6 +7,7 @@
 #include <plica/meshes/files/parsed_mesh.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/weld_open_edges.hpp>
 #include <utility>
 
 namespace plica {
@@ -165,18 +166,28 @@ void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
 }  // namespace
 
 TriangleSurface validated_surface(const ParsedMesh& raw, const MeshReport& found,
-                                  SurfaceReport& report) {
+                                  SurfaceReport& report, double weld) {
   if (raw.triangles.empty() && raw.polygons.empty() && raw.bad_faces.count == 0)
     refuse(raw.file, Place{}, "the file holds no triangle");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of triangles", static_cast<double>(raw.triangles.size()));
   report.format = found.format;
   report.linearised = found.linearised;
+  report.notes = found.notes;
   TriangleSurface surface;
   SurfaceMaker(raw, surface, report).make();
   drop_repeats(surface, report);
   drop_unreferenced(surface, report);
   count_edges(surface, report);
+  if (weld > 0.0 && report.open_edges > 0) {
+    const Box box = bounding_box(surface.vertices);
+    report.welded = weld_open_edges(surface, weld * (box.max - box.min).norm());
+    const int unused = report.unreferenced;
+    drop_unreferenced(surface, report);  // corners of slivers that the weld has closed
+    report.unreferenced = unused;
+    report.open_edges = report.crowded_edges = report.inconsistent_edges = 0;
+    count_edges(surface, report);
+  }
   report.parts = count_parts(surface);
   report.turned = report.closed() && enclosed_volume(surface) < 0.0;
   if (report.turned)

@@ -8,12 +8,11 @@ namespace {
 
 constexpr const char* region_name = "region";
 
-// Refuses an array that does not have one number per cell
-void check_count(const VtkGrid& grid, const std::vector<PlacedInteger>& values,
-                 const std::string& what) {
-  if (values.size() != grid.ends.size())
-    refuse(grid.file, values.empty() ? Place{} : values.back().place,
-           "there are " + std::to_string(values.size()) + " " + what + " for " +
+// Refuses a grid that does not have one type per cell
+void check_types(const VtkGrid& grid) {
+  if (grid.types.size() != grid.ends.size())
+    refuse(grid.file, grid.types.empty() ? Place{} : grid.types.back().place,
+           "there are " + std::to_string(grid.types.size()) + " types for " +
                std::to_string(grid.ends.size()) + " cells");
 }
 
@@ -78,14 +77,16 @@ void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::
                              NumberType type, Numbers& numbers) {
   if (components == 3 && !is_integer(type) && !name.empty() && name != region_name)
     return read_vectors(name, tuples, type, false, numbers);
-  const bool usable = components == 1 && is_integer(type);
-  if (name == region_name && !usable)
+  if (name == region_name && components != 1)
     numbers.fail(
         "the array 'region' of the cells must be one integer per cell, to tell their regions");
-  if (!usable || region_array == region_name || (name != region_name && !region_array.empty()))
+  if (components != 1 || name.empty())
     return numbers.skip(tuples * components, type, "a value of the cells");
-  region_array = name;
-  regions = read_integers(tuples, type, "a region", numbers);
+  RawNumbers array;
+  array.name = name;
+  const std::string what = "a value of the array " + shown(name);
+  for (std::int64_t i = 0; i < tuples; ++i) array.add(numbers.any_number(type, what));
+  arrays.push_back(std::move(array));
 }
 
 void VtkGrid::add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
@@ -116,13 +117,12 @@ void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners,
 ParsedMesh VtkGrid::mesh(MeshReport& report) const {
   constexpr std::int64_t strip = 6, pixel = 8, voxel = 11;
   check_ends(*this);
-  check_count(*this, types, "types");
-  if (!region_array.empty())
-    check_count(*this, regions, "values of the array " + shown(region_array));
+  check_types(*this);
   ParsedMesh raw;
   raw.file = file;
   raw.vertices = points;
-  std::vector<std::int64_t> numbers, corners;
+  std::vector<std::int64_t> corners;
+  std::vector<std::size_t> cells;  // per tetrahedron its cell
   for (std::size_t c = 0; c < ends.size(); ++c) {
     const std::size_t begin = c == 0 ? 0 : static_cast<std::size_t>(ends[c - 1].value);
     const std::size_t size = static_cast<std::size_t>(ends[c].value) - begin;
@@ -143,8 +143,17 @@ ParsedMesh VtkGrid::mesh(MeshReport& report) const {
     if (type == strip)
       add_strip(tag, corners, place, raw, report);
     else
-      numbers.insert(numbers.end(), add_element(kind, tag, corners, place, raw, report),
-                     regions.empty() ? 0 : regions[c].value);
+      cells.insert(cells.end(), add_element(kind, tag, corners, place, raw, report), c);
+  }
+  for (const RawNumbers& array : arrays) {
+    if (array.wrong.empty() && array.values.size() != ends.size()) continue;
+    RawNumbers& taken = raw.numbers.emplace_back(array);
+    taken.values.clear();
+    for (std::size_t t = 0; array.wrong.empty() && t < cells.size(); ++t)
+      taken.values.push_back(array.values[cells[t]]);
+    taken.name_of = [name = array.name](std::int64_t number) {
+      return name + "_" + std::to_string(number);
+    };
   }
   // Vectors of another count belong to the file as a whole, and are left out
   for (const bool of_points : {false, true})
@@ -152,8 +161,6 @@ ParsedMesh VtkGrid::mesh(MeshReport& report) const {
       if (field.of_vertices == of_points &&
           field.values.size() == (of_points ? points.size() : ends.size()))
         raw.vectors.push_back(field);
-  name_regions(raw, numbers,
-               [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
   return raw;
 }
 

@@ -67,15 +67,13 @@ struct VtkGrid {
   std::vector<PlacedInteger> connectivity;  ///< points of the cells, cell after cell
   std::vector<PlacedInteger> ends;          ///< per cell its end in `connectivity`
   std::vector<PlacedInteger> types;         ///< per cell the type in vtk_cells
-  /// name of the cells' array that gives the regions; empty: there is none
-  std::string region_array;
-  std::vector<PlacedInteger> regions;  ///< per cell the number of its region
-  std::vector<RawVectors> vectors;     ///< named vectors of cells and points
+  std::vector<RawNumbers> arrays;           ///< arrays with one number per cell
+  std::vector<RawVectors> vectors;          ///< named vectors of cells and points
 
   /// Reads the coordinates of `count` points.
   void read_points(std::int64_t count, NumberType type, Numbers& numbers);
-  /// Reads an array of the cells, or skips it. The array "region" gives the regions, else the first
-  /// array with one integer per cell. Arrays with three real numbers per cell are vectors.
+  /// Reads an array of the cells, or skips it. Arrays with one number per cell may give the
+  /// regions, see choose_regions(). Arrays with three real numbers per cell are vectors.
   void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components,
                       NumberType type, Numbers& numbers);
   /// Reads an array of the points, or skips it. Arrays with three real numbers per point are
@@ -88,7 +86,7 @@ struct VtkGrid {
                  const std::vector<PlacedInteger>& cell_ends);
   /// Checks that the arrays fit each other, and returns the mesh. Cells become tetrahedra and
   /// faces; points and lines are counted and checked. Region 3 of the array "region" is named
-  /// "region_3". Where all regions are 0 there is one nameless region.
+  /// "region_3".
   ParsedMesh mesh(MeshReport& report) const;
 
  private:

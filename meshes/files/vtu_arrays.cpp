@@ -1,47 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
+#include <plica/meshes/files/base64.hpp>
 #include <plica/meshes/files/file_bytes.hpp>
 #include <plica/meshes/files/vtu_arrays.hpp>
 #include <pugixml.hpp>
 
 namespace plica {
-
-namespace {
-
-constexpr std::array<std::int8_t, 256> base64_digits = [] {
-  constexpr std::string_view alphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::array<std::int8_t, 256> table = {};
-  table.fill(-1);
-  for (std::size_t i = 0; i < alphabet.size(); ++i)
-    table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
-  return table;
-}();
-
-}  // namespace
-
-std::optional<std::string> decode_base64(std::string_view text) {
-  if (text.size() % 4 != 0) return {};
-  std::size_t padding = 0;
-  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  for (std::size_t at = 0; at < text.size(); at += 4) {
-    std::uint32_t group = 0;
-    for (std::size_t k = at; k < at + 4; ++k) {
-      const int digit =
-          k + padding >= text.size() ? 0 : base64_digits[static_cast<unsigned char>(text[k])];
-      if (digit < 0) return {};
-      group = group << 6 | static_cast<std::uint32_t>(digit);
-    }
-    for (const int shift : {16, 8, 0}) bytes += static_cast<char>(group >> shift & 0xff);
-  }
-  bytes.resize(bytes.size() - padding);
-  return bytes;
-}
 
 namespace {
 
@@ -72,22 +38,6 @@ bool take_last(std::string_view& text, std::string_view word) {
   while (!text.empty() && blanks.find(text.back()) != std::string_view::npos) text.remove_suffix(1);
   return true;
 }
-
-// Map from bytes to lines of a file; fast for places that mostly come in ascending order
-class Lines {
- public:
-  explicit Lines(std::string_view text) : text_(text) {}
-  std::int64_t of(std::size_t byte) {
-    if (byte < at_) at_ = 0, line_ = 1;
-    for (; at_ < std::min(byte, text_.size()); ++at_) line_ += text_[at_] == '\n';
-    return line_;
-  }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-  std::int64_t line_ = 1;
-};
 
 // Returns the byte after the '>' of the start tag that begins at `begin`; npos: it does not end
 std::size_t end_of_tag(std::string_view text, std::size_t begin) {
@@ -132,14 +82,12 @@ NumberType vtu_type(const XmlElement& array, const FileBytes& file) {
     if (name == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  const std::string quoted = shown(name);
-  refuse(file.name, array.place,
-         unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
+  refuse(file.name, array.place, unknown_name("type of numbers", plain(name), choices));
 }
 
 std::vector<XmlElement> vtu_elements(const FileBytes& file) {
   const std::string_view all = file.bytes;
-  Lines lines(all);
+  LineNumbers lines(all);
   const auto refuse_at = [&](std::size_t byte, const std::string& message) {
     refuse(file.name, {lines.of(std::min(byte, all.size()))}, message);
   };
@@ -382,9 +330,9 @@ std::string VtuArrays::decoded(std::string_view text, bool exactly, const Place&
                     bytes = (apart ? 0 : head) + static_cast<std::size_t>(size);
   const std::size_t end = from + base64_size(bytes);
   if (text.size() < end || (exactly && text.size() != end)) bad();
-  const auto rest = decode_base64(text.substr(from, end - from));
+  auto rest = decode_base64(text.substr(from, end - from));
   if (!rest) bad();
-  return apart ? *start + *rest : *rest;
+  return apart ? *start + *rest : std::move(*rest);
 }
 
 }  // namespace plica

@@ -11,13 +11,6 @@
 
 namespace plica {
 
-/// Returns the number of characters that encode a number of bytes (RFC 4648, with padding).
-constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
-
-/// Returns the bytes that the characters encode. Returns nothing unless they are whole groups of
-/// four from the alphabet, the last one filled up with '='.
-std::optional<std::string> decode_base64(std::string_view text);
-
 /// XML element of a VTU file, and the text between its start tag and the next tag.
 struct XmlElement {
   std::string name;

@@ -13,8 +13,9 @@ constexpr int types[] = {15, 1, 2};  // MSH types of points, lines and triangles
 
 void check_name(const std::filesystem::path& path, const std::string& name) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
-    throw InputError("the name " + shown(name) + " of a region or set cannot be written",
-                     {path.string()});
+    throw InputError(
+        "the name " + shown(name) + " of a region, set or field of vectors cannot be written",
+        {path.string()});
 }
 
 std::int64_t size_of(const auto& container) { return static_cast<std::int64_t>(container.size()); }
@@ -42,6 +43,7 @@ void write_heading(const char* version, const std::filesystem::path& path, const
   out.text("$MeshFormat\n").text(version).text(out.binary() ? " 1 8\n" : " 0 8\n");
   if (out.binary()) out.int32(1).text("\n");  // tells the byte order
   out.text("$EndMeshFormat\n");
+  for (const auto& [name, vectors] : parts.mesh.tet_vectors) check_name(path, name);
   const std::size_t names = parts.tags.size() + parts.sets.size();
   if (names == 0) return;
   out.text("$PhysicalNames\n" + std::to_string(names) + "\n");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <bit>
 #include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/vtu_out.hpp>
 #include <plica/meshes/files/writing.hpp>
+#include <set>
 
 namespace plica {
 
@@ -16,37 +17,42 @@ WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   return written;
 }
 
-// Returns a name that both formats can hold, with '_' for blanks and XML's special characters
+// Returns a name that both formats can hold, with '_' for blanks, XML's special characters
+// and all beyond ASCII
 std::string written_name(std::string name) {
   for (char& c : name)
-    if (c <= ' ' || std::string_view("\"'<>&\x7f").find(c) != std::string_view::npos) c = '_';
+    if (c <= ' ' || c > '~' || std::string_view("\"'<>&").find(c) != std::string_view::npos)
+      c = '_';
   return name;
 }
 
-// Appended data of the XML format: each array after its length in bytes
-class Appended {
- public:
-  template <typename Number>
-  std::string array(const char* type, const char* name, int components,
-                    const std::vector<Number>& values) {
-    TextOut tag;
-    tag << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
-        << components << "\" format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
-    const std::uint64_t size = values.size() * sizeof(Number);
-    bytes_.append(reinterpret_cast<const char*>(&size), sizeof(size));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
-    return tag.take();
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
+// Returns the names of the arrays of vectors, in the order of the mesh: no two arrays of a file
+// have one name. Names that the formats can hold stay; the others give way, with a number at their
+// end.
+std::vector<std::string> array_names(const TetMesh& mesh, WrittenMesh& written) {
+  std::map<std::string, std::string> names;
+  std::set<std::string> taken;
+  if (!mesh.region.empty()) taken.insert("region");
+  for (const bool stays : {true, false})
+    for (const auto& [name, vectors] : mesh.tet_vectors) {
+      const std::string wanted = written_name(name);
+      if ((wanted == name) != stays) continue;
+      std::string& own = names[name] = wanted;
+      for (int n = 2; !taken.insert(own).second; ++n) own = wanted + "_" + std::to_string(n);
+      if (own != wanted)
+        written.left_out.push_back("the vectors '" + name + "' are now '" + own +
+                                   "': another array has the name '" + wanted + "'");
+    }
+  std::vector<std::string> all;
+  for (const auto& [name, own] : names) all.push_back(own);
+  return all;
+}
 
 // Writes the legacy format; each array ends its line, in binary too
 WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
                          const MeshGroups& groups, bool binary) {
   WrittenMesh written = noted(mesh, groups);
+  const std::vector<std::string> names = array_names(mesh, written);
   const std::string cells = std::to_string(mesh.tets.size()), end = binary ? "\n" : "";
   NumbersOut out(binary, std::endian::big);
   out.text("# vtk DataFile Version 3.0\nmesh\n").text(binary ? "BINARY" : "ASCII");
@@ -64,8 +70,9 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
     for (const std::int64_t region : region_numbers(mesh, groups)) out.int32(region).end();
     out.text(end);
   }
+  auto own = names.begin();
   for (const auto& [name, vectors] : mesh.tet_vectors) {
-    out.text("VECTORS " + written_name(name) + " double\n");
+    out.text("VECTORS " + *own++ + " double\n");
     for (const Point& vector : vectors) out.real64(vector).end();
     out.text(end);
   }
@@ -87,37 +94,28 @@ WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& m
 WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
                       const MeshGroups& groups) {
   WrittenMesh written = noted(mesh, groups);
-  std::vector<double> points;
-  for (const Point& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), p.z()});
+  const std::vector<std::string> names = array_names(mesh, written);
   std::vector<std::int64_t> corners, ends;
   for (const auto& tet : mesh.tets) {
     corners.insert(corners.end(), tet.begin(), tet.end());
     ends.push_back(static_cast<std::int64_t>(corners.size()));
   }
   const std::vector<std::uint8_t> types(mesh.tets.size(), vtk_tet);
-  Appended appended;
-  TextOut out;
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
-      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-      << mesh.vertices.size() << "\" NumberOfCells=\"" << mesh.tets.size() << "\">\n<Points>\n"
-      << appended.array("Float64", "Points", 3, points) << "</Points>\n<Cells>\n"
-      << appended.array("Int64", "connectivity", 1, corners)
-      << appended.array("Int64", "offsets", 1, ends) << appended.array("UInt8", "types", 1, types)
-      << "</Cells>\n";
+  VtuOut out;
+  TextOut grid;
+  grid << "<Piece NumberOfPoints=\"" << mesh.vertices.size() << "\" NumberOfCells=\""
+       << mesh.tets.size() << "\">\n<Points>\n"
+       << out.add("Points", mesh.vertices) << "</Points>\n<Cells>\n"
+       << out.add("connectivity", 1, corners) << out.add("offsets", 1, ends)
+       << out.add("types", 1, types) << "</Cells>\n";
   const bool has_data = !mesh.region.empty() || !mesh.tet_vectors.empty();
-  if (has_data) out << "<CellData>\n";
-  if (!mesh.region.empty())
-    out << appended.array("Int64", "region", 1, region_numbers(mesh, groups));
-  for (const auto& [name, vectors] : mesh.tet_vectors) {
-    std::vector<double> numbers;
-    for (const Point& p : vectors) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
-    out << appended.array("Float64", written_name(name).c_str(), 3, numbers);
-  }
-  if (has_data) out << "</CellData>\n";
-  out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << appended.bytes()
-      << "\n</AppendedData>\n</VTKFile>\n";
-  written.files = {{path.string(), out.take()}};
+  if (has_data) grid << "<CellData>\n";
+  if (!mesh.region.empty()) grid << out.add("region", 1, region_numbers(mesh, groups));
+  auto own = names.begin();
+  for (const auto& [name, vectors] : mesh.tet_vectors) grid << out.add(*own++, vectors);
+  if (has_data) grid << "</CellData>\n";
+  grid << "</Piece>\n";
+  written.files = {{path.string(), out.file(grid.take())}};
   return written;
 }
 

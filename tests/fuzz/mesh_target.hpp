@@ -79,6 +79,8 @@ inline constexpr Target mesh_targets[] = {
     {"vtk", [](std::string_view bytes) { mesh("m.vtk", bytes), surface("m.vtk", bytes); }},
     {"vtu", [](std::string_view bytes) { mesh("m.vtu", bytes), surface("m.vtp", bytes); }},
     {"tetgen", tetgen},
+    {"inp", [](std::string_view bytes) { mesh("m.inp", bytes), surface("m.inp", bytes); }},
+    {"feb", [](std::string_view bytes) { mesh("m.feb", bytes), surface("m.feb", bytes); }},
     {"obj", [](std::string_view bytes) { surface("m.obj", bytes); }},
     {"ply", [](std::string_view bytes) { surface("m.ply", bytes); }},
     {"off", [](std::string_view bytes) { surface("m.off", bytes); }},

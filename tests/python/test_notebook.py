@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-NOTEBOOK = Path(os.environ["PLICA_SOURCE_DIR"]) / "cmake" / "docs" / "first_hour.ipynb"
+NOTEBOOK = Path(os.environ["PLICA_SOURCE_DIR"]) / "cmake" / "docs" / "tutorials" / "first_hour.ipynb"
 for package in ("ipykernel", "matplotlib", "pandas"):
     pytest.importorskip(package)
 nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")

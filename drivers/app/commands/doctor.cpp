@@ -5,6 +5,7 @@
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/run/simulation.hpp>
@@ -15,7 +16,6 @@
 namespace plica::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using DoctorClock = std::chrono::steady_clock;
 double since(DoctorClock::time_point start) {
   return std::chrono::duration<double>(DoctorClock::now() - start).count();
@@ -77,17 +77,20 @@ std::vector<Answer> self_test() {
           {"contact energy", "J", e.contact, 0.001565068, 8e-6}};
 }
 
-Json answers_json(const std::vector<Answer>& answers) {
-  Json rows = Json::array();
-  for (const Answer& a : answers)
-    rows.push_back({{"name", a.name},
-                    {"unit", a.unit},
-                    {"got", a.got},
-                    {"stored", a.stored},
-                    {"tolerance", a.tolerance},
-                    {"ok", a.ok()}});
-  return rows;
+std::string with_digits(double value, const Answer& answer) {
+  return fmt::format("{:.7f} {}", value, answer.unit);
 }
+
+const Table<Answer> answer_columns = {
+    {"name", &Answer::name, {"self-test"}},
+    {"unit", &Answer::unit},
+    {"got", &Answer::got},
+    {"", [](const Answer& a) { return with_digits(a.got, a); }, {"", "{}"}},
+    {"stored", &Answer::stored},
+    {"", [](const Answer& a) { return with_digits(a.stored, a); }, {"stored", "{}"}},
+    {"tolerance", &Answer::tolerance},
+    {"ok", &Answer::ok},
+    {"", [](const Answer& a) { return a.ok() ? "ok" : "WRONG"; }, {""}}};
 
 }  // namespace
 
@@ -112,7 +115,8 @@ ExitStatus doctor(bool json, const KokkosArguments& kokkos) {
            {"flops_double", limits.flops},
            {"flops_float", limits.flops_float},
            {"wall_time", measured}}},
-         {"self_test", {{"ok", ok}, {"wall_time", tested}, {"answers", answers_json(answers)}}}});
+         {"self_test",
+          {{"ok", ok}, {"wall_time", tested}, {"answers", answer_columns.json(answers)}}}});
     return status;
   }
   const auto giga = [](double value, const char* unit) {
@@ -137,11 +141,7 @@ ExitStatus doctor(bool json, const KokkosArguments& kokkos) {
              "  (measured in {:.1f} s: triad over {} in all and {} a thread, multiply-adds)\n\n",
              measured, in_bytes(static_cast<std::size_t>(in_memory)),
              in_bytes(static_cast<std::size_t>(in_cache)));
-  std::vector<std::vector<std::string>> rows = {{"self-test", "", "stored", ""}};
-  for (const Answer& a : answers)
-    rows.push_back({a.name, fmt::format("{:.7f} {}", a.got, a.unit),
-                    fmt::format("{:.7f} {}", a.stored, a.unit), a.ok() ? "ok" : "WRONG"});
-  std::cout << text_table(rows, "<>><")
+  std::cout << answer_columns.text(answers)
             << fmt::format("  a ball falls into a bowl, cycle him, {:.1f} s: {}\n", tested,
                            ok ? "all ok" : "not the stored answer");
   return status;

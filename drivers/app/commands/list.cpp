@@ -70,6 +70,7 @@ constexpr Family families[] = {
     {"formats", "mesh files that are read", meshes_read},
     {"units", "of numbers in scenes and on the command line", unit_choices}};
 constexpr const char* keys_summary = "everything that a scene can say";
+constexpr const char* reference_summary = "the reference as pages of Markdown, in a folder";
 
 void list_choices(const std::vector<Choice>& choices, bool json) {
   std::vector<std::vector<std::string>> rows;
@@ -107,6 +108,7 @@ std::vector<std::string> list_names() {
   std::vector<std::string> names;
   for (const Family& family : families) names.emplace_back(family.name);
   names.emplace_back("keys");
+  names.emplace_back("reference");
   return names;
 }
 
@@ -114,6 +116,7 @@ std::string families_text() {
   std::vector<std::vector<std::string>> rows;
   for (const Family& family : families) rows.push_back({family.name, family.summary});
   rows.push_back({"keys", keys_summary});
+  rows.push_back({"reference", reference_summary});
   return text_table(rows, "<<");
 }
 

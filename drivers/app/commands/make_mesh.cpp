@@ -34,7 +34,7 @@ auto placed(const std::filesystem::path& file, const Make& make) {
 
 TetMesh read_scaled(const MakeMeshArguments& arguments, MeshReport& report, Flaws flaws) {
   const double scale = scale_of(arguments);
-  TetMesh mesh = read_mesh(arguments.in, &report, flaws);
+  TetMesh mesh = read_mesh(arguments.in, &report, {.flaws = flaws});
   for (Point& p : mesh.vertices) p *= scale;
   return mesh;
 }

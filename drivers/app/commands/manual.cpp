@@ -209,7 +209,8 @@ std::string manual_of(const std::string& command) {
   if (command == "completion") return completion_manual;
   if (command == "list")
     return "FAMILY is one of\n" + families_text() +
-           "\nExamples:\n  plica list keys\n  plica list materials --json\n\n" +
+           "\nExamples:\n  plica list keys\n  plica list materials --json\n  plica list reference "
+           "-o FOLDER\n\n" +
            "Exit status: 0 done, 2 bad input";
   return {};
 }

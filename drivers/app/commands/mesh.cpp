@@ -75,8 +75,7 @@ ExitStatus mesh_info(const MeshInfoArguments& arguments) {
   double scale = 1;
   read_option("--scale", arguments.scale, Quantity{plain, positive}, scale);
   MaterialOptions material;
-  OptionReader reader(arguments.material);
-  describe(reader, material);
+  read_options(arguments.material, material);
   auto read = read_any(arguments.file);
   std::cout << std::visit([&](auto& one) { return info_of(one, scale, material, arguments); },
                           read);

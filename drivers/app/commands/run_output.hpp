@@ -88,12 +88,7 @@ class RunOutput {
                scene.problem.body.surface.value_or(TriangleSurface{}), has_pairs(scene.problem)),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
-    if (resumed) {
-      energy_.restore(checkpoint_.energy);
-      work_.restore(checkpoint_.energy.at(5), checkpoint_.energy.at(6) > 0);
-      inside_out_.restore(checkpoint_.inside_out);
-      depth_.restore(checkpoint_.depth);
-    }
+    if (resumed) restore_saved();
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
                       resumed ? std::optional(checkpoint_.files.probe_bytes) : std::nullopt);
@@ -176,6 +171,21 @@ class RunOutput {
             energy_.save(),
             inside_out_.save(),
             depth_.save()};
+  }
+
+  /// Restores what the checkpoint has of earlier frames. Throws InputError where values are
+  /// missing.
+  void restore_saved() {
+    try {
+      const std::vector<double>& energy = checkpoint_.energy;
+      expect_saved("energy and work", energy.size(), 7);
+      energy_.restore({energy.begin(), energy.begin() + 5});
+      work_.restore(energy[5], energy[6] > 0);
+      inside_out_.restore(checkpoint_.inside_out);
+      depth_.restore(checkpoint_.depth);
+    } catch (const InputError& error) {
+      throw InputError(error.what(), {(folder_ / "checkpoint.bin").string()});
+    }
   }
 
   void add(const RunEnd& now) {

@@ -9,7 +9,6 @@
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/cycles/plan_steps.hpp>
 #include <plica/drivers/run/simulation.hpp>
-#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
 #include <thread>
@@ -83,13 +82,14 @@ struct CycleAuto {
   std::optional<CycleChoice> choice = {};  ///< choice of the run that is resumed
 };
 
-/// Makes the simulation of a scene. Returns what cycle auto has chosen; none for other cycles.
+/// Makes the simulation of a scene, which load_scene() has validated. Returns what cycle auto has
+/// chosen; none for other cycles.
 template <class B>
 std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene,
                                   const CycleAuto& made) {
   const Problem& problem = scene.problem;
-  if (problem.integration.cycle != "auto") return simulation.emplace(problem), std::nullopt;
-  validate(problem);
+  if (problem.integration.cycle != "auto")
+    return simulation.emplace(problem, typename B::Exec{}, Validation::done), std::nullopt;
   std::optional<CycleChoice> choice = made.choice;
   if (!choice) simulation.emplace(level_0_alone(problem));
   if (!choice && made.trials) choice = choose_cycle<B>(problem, *simulation, {scene.duration, {}});

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/cycle_choice.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
@@ -29,54 +30,48 @@ std::string path_of(const Json& json) {
   return {bytes.begin(), bytes.end()};
 }
 
-Json interval_json(const Interval& interval) { return {interval.time, interval.steps}; }
-Interval interval_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<long>()};
+// Returns the columns of a path
+Column<Checkpoint> path_column(const std::string& name, std::string Checkpoint::*path) {
+  return {name, [=](const Checkpoint& c) { return path_json(c.*path); },
+          [=](const Json& json, Checkpoint& c) { c.*path = path_of(json); }};
 }
 
-Json header_of(const Checkpoint& c) {
-  return {{"scene_file", path_json(c.scene_file)},
-          {"scene_path", path_json(c.scene_path)},
-          {"scene", json_of(c.scene)},
-          {"meshes", c.meshes},
-          {"precision", c.precision},
-          {"backend", c.backend},
-          {"program", c.program},
-          {"every", interval_json(c.every)},
-          {"frame_every", interval_json(c.frame_every)},
-          {"macro_steps", c.macro_steps},
-          {"wall_time", c.wall_time},
-          {"stages", c.stages},
-          {"choice", choice_json(c.choice)},
-          {"energy", c.energy},
-          {"inside_out", c.inside_out},
-          {"depth", c.depth},
-          {"frame_times", c.files.frame_times},
-          {"history_bytes", c.files.history_bytes},
-          {"probe_bytes", c.files.probe_bytes}};
+Column<Checkpoint> interval_column(const std::string& name, Interval Checkpoint::*interval) {
+  return {name,
+          [=](const Checkpoint& c) {
+            return Json{(c.*interval).time, (c.*interval).steps};
+          },
+          [=](const Json& json, Checkpoint& c) {
+            c.*interval = {json.at(0).get<double>(), json.at(1).get<long>()};
+          }};
 }
 
-Checkpoint checkpoint_of(const Json& json) {
-  Checkpoint c;
-  c.scene_file = path_of(json.at("scene_file")), c.scene_path = path_of(json.at("scene_path"));
-  c.scene = tree_of(json.at("scene"), c.scene_path);
-  json.at("meshes").get_to(c.meshes);
-  json.at("precision").get_to(c.precision);
-  json.at("backend").get_to(c.backend);
-  json.at("program").get_to(c.program);
-  c.every = interval_of(json.at("every")), c.frame_every = interval_of(json.at("frame_every"));
-  json.at("macro_steps").get_to(c.macro_steps);
-  json.at("wall_time").get_to(c.wall_time);
-  json.at("stages").get_to(c.stages);
-  c.choice = choice_of(json.at("choice"));
-  json.at("energy").get_to(c.energy);
-  json.at("inside_out").get_to(c.inside_out);
-  json.at("depth").get_to(c.depth);
-  json.at("frame_times").get_to(c.files.frame_times);
-  json.at("history_bytes").get_to(c.files.history_bytes);
-  json.at("probe_bytes").get_to(c.files.probe_bytes);
-  return c;
+// All but the state; the scene is read after its path
+const Table<Checkpoint> checkpoint_columns = {
+    path_column("scene_file", &Checkpoint::scene_file),
+    path_column("scene_path", &Checkpoint::scene_path),
+    {"scene", [](const Checkpoint& c) { return json_of(c.scene); },
+     [](const Json& json, Checkpoint& c) { c.scene = tree_of(json, c.scene_path); }},
+    {"meshes", &Checkpoint::meshes}, {"precision", &Checkpoint::precision},
+    {"backend", &Checkpoint::backend}, {"program", &Checkpoint::program},
+    interval_column("every", &Checkpoint::every),
+    interval_column("frame_every", &Checkpoint::frame_every),
+    {"macro_steps", &Checkpoint::macro_steps}, {"wall_time", &Checkpoint::wall_time},
+    {"stages", &Checkpoint::stages},
+    {"choice", [](const Checkpoint& c) { return choice_json(c.choice); },
+     [](const Json& json, Checkpoint& c) { c.choice = choice_of(json); }},
+    {"energy", &Checkpoint::energy}, {"inside_out", &Checkpoint::inside_out},
+    {"depth", &Checkpoint::depth}, {"frame_times", [](auto& c) -> auto& {return c.files.frame_times;
+}  // namespace
+}  // namespace plica::app
+, {"history_bytes", [](auto& c) -> auto& {return c.files.history_bytes;
 }
+}
+, {
+  "probe_bytes", [](auto& c) -> auto& { return c.files.probe_bytes; }
+}
+}
+;
 
 std::uint64_t digest_of(const std::string& text) {
   Digest digest;
@@ -111,6 +106,7 @@ std::uint64_t mesh_digest(const Body& body) {
     digest.add(mesh.filled);
     for (const std::string& name : mesh.region_names) digest.add(name);
     for (const auto& [name, vertices] : mesh.vertex_sets) digest.add(name), digest.add(vertices);
+    for (const auto& [name, vectors] : mesh.tet_vectors) digest.add(name), add_points(vectors);
   }
   if (body.surface) {
     add_points(body.surface->vertices);
@@ -120,7 +116,7 @@ std::uint64_t mesh_digest(const Body& body) {
 }
 
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
-  const std::string header = header_of(checkpoint).dump();
+  const std::string header = checkpoint_columns.json(checkpoint).dump();
   std::string body = header;
   body.append(checkpoint.state.bytes.begin(), checkpoint.state.bytes.end());
   const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", checkpoint_title, version_written,
@@ -155,8 +151,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder) {
   if (digest_of(body) != digest)
     throw InputError("the checkpoint is damaged: its checksum is wrong", where);
   try {
-    Checkpoint checkpoint = checkpoint_of(
-        Json::parse(body.begin(), body.begin() + static_cast<std::ptrdiff_t>(header)));
+    Checkpoint checkpoint;
+    checkpoint_columns.read(
+        Json::parse(body.begin(), body.begin() + static_cast<std::ptrdiff_t>(header)), checkpoint);
     checkpoint.state.bytes.assign(body.begin() + static_cast<std::ptrdiff_t>(header), body.end());
     return checkpoint;
   } catch (const Json::exception& error) {

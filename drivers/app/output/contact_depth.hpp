@@ -80,9 +80,9 @@ class ContactDepth {
     for (const Penetration& p : all_.deepest) saved.insert(saved.end(), {p.depth, p.time});
     return saved;
   }
-  /// Restores the values that save() has returned.
+  /// Restores the values that save() has returned. Throws InputError for another number of them.
   void restore(const std::vector<double>& saved) {
-    if (saved.size() < 5 + 2 * all_.deepest.size()) return;
+    expect_saved("contact depths", saved.size(), 5 + 2 * all_.deepest.size());
     depth_ = saved[0], at_ = saved[1], obstacle_ = saved[2], inside_ = saved[3],
     inside_at_ = saved[4];
     for (std::size_t i = 0; i < all_.deepest.size(); ++i)

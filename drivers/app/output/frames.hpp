@@ -32,9 +32,7 @@ struct VtuGrid {
   double time = 0;  ///< simulated time [s]
 };
 
-/// Returns the grid as a VTK XML file (.vtu), with arrays appended as raw binary in double
-/// precision. Source: the VTK file formats,
-/// https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+/// Returns the grid as a VTK XML file (.vtu) in double precision.
 std::string vtu_text(const VtuGrid& grid);
 
 /// Writer of an animation: one .vtu file per frame in the folder `frames`, and a collection (.pvd).

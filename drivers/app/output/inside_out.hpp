@@ -37,9 +37,9 @@ class InsideOut {
   std::vector<double> save() const {
     return {most_, all_, first_, at_, least_, per_vertex_ ? 1.0 : 0.0};
   }
-  /// Restores the values that save() has returned.
+  /// Restores the values that save() has returned. Throws InputError for another number of them.
   void restore(const std::vector<double>& saved) {
-    if (saved.size() < 6) return;
+    expect_saved("inverted elements", saved.size(), 6);
     most_ = saved[0], all_ = saved[1], first_ = saved[2], at_ = saved[3], least_ = saved[4],
     per_vertex_ = saved[5] > 0;
   }

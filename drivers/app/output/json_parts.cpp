@@ -50,24 +50,13 @@ Json json_of(const T& value) {
   return value;
 }
 
-// Visitor of the table of a shape that writes its values
-struct ValueWriter {
-  Json values = Json::object();
-  template <class T, class Kind>
-  void operator()(const char* key, const T& member, const Kind&, const char*) {
-    values[key] = json_of(member);
-  }
-  template <class T, class Kind>
-  void required(const char* key, const T& member, const Kind&, const char*) {
-    values[key] = json_of(member);
-  }
-};
-
 template <class Options>
 Json shape_json(Options o) {
-  ValueWriter writer;
-  describe(writer, o);
-  return writer.values;
+  Json values = Json::object();
+  keys::for_each_key(o, [&](const char* key, const auto& member, const auto&, const char*) {
+    values[key] = json_of(member);
+  });
+  return values;
 }
 Json shape_json(const SurfaceOptions& o) {
   const Box box = bounding_box(o.surface.vertices);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/mesh_description.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -28,25 +29,46 @@ Json box_json(const Box& box) {
   return {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
 }
 
-Json worst_json(const MeshDescription& m) {
-  Json worst = Json::array();
+std::string at(const Point& p) {
+  return fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", p.x(), p.y(), p.z());
+}
+
+// Badly shaped tetrahedron
+struct WorstTet : TetShape {
+  std::int64_t file_number = 0;
+  std::string region;
+  double critical_step = 0;  // critical step of the element alone [s]
+};
+
+std::vector<WorstTet> worst_of(const MeshDescription& m) {
+  std::vector<WorstTet> worst;
+  const TetMesh& mesh = m.read.mesh;
   for (std::size_t i = 0; i < m.quality.worst.size(); ++i) {
-    const TetShape& s = m.quality.worst[i];
-    const auto tet = static_cast<std::size_t>(s.tet);
-    const auto& mesh = m.read.mesh;
+    const auto tet = static_cast<std::size_t>(m.quality.worst[i].tet);
     worst.push_back(
-        {{"tet", s.tet},
-         {"number", m.read.report.tet_tags[tet]},
-         {"region",
-          mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[tet])]},
-         {"volume", s.volume},
-         {"height_ratio", s.height_ratio},
-         {"smallest_angle", s.smallest_angle},
-         {"largest_angle", s.largest_angle},
-         {"critical_step", m.worst_bounds[i]},
-         {"centroid", point_json(s.centroid)}});
+        {m.quality.worst[i], m.read.report.tet_tags[tet],
+         mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[tet])],
+         m.worst_bounds[i]});
   }
   return worst;
+}
+
+Table<WorstTet> worst_columns(bool regions) {
+  return {{"tet", &WorstTet::tet},
+          {"number", &WorstTet::file_number, {"tetrahedron", "{}"}},
+          {"region", &WorstTet::region, regions ? Shown{"region"} : Shown{}},
+          {"volume", &WorstTet::volume},
+          {"height_ratio", &WorstTet::height_ratio, {"edge / height", "{:.3g}"}},
+          {"smallest_angle", &WorstTet::smallest_angle},
+          {"largest_angle", &WorstTet::largest_angle},
+          {"",
+           [](const WorstTet& t) {
+             return fmt::format("{:.1f} - {:.1f} deg", t.smallest_angle, t.largest_angle);
+           },
+           {"angles between faces", "{}"}},
+          {"critical_step", &WorstTet::critical_step, {"step alone", "s"}},
+          {"centroid", [](const WorstTet& t) { return point_json(t.centroid); }},
+          {"", [](const WorstTet& t) { return at(t.centroid); }, {"at"}}};
 }
 
 }  // namespace
@@ -83,7 +105,7 @@ std::string mesh_json(const MeshDescription& m) {
                      {"dihedral_angles", range_json(q.dihedral_angles)},
                      {"height_ratio_counts", histogram_json(q.height_ratio_counts)},
                      {"dihedral_angle_counts", histogram_json(q.dihedral_angle_counts)},
-                     {"worst", worst_json(m)}};
+                     {"worst", worst_columns(true).json(worst_of(m))}};
   return json_text(json);
 }
 
@@ -122,10 +144,6 @@ std::string spread(const Range& range) {
 std::string lengths(const Range& range) {
   return in_units(range.min, "m") + " / " + in_units(range.mean, "m") + " / " +
          in_units(range.max, "m");
-}
-
-std::string at(const Point& p) {
-  return fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", p.x(), p.y(), p.z());
 }
 
 void add_box(const Box& box, Rows& rows) {
@@ -179,28 +197,13 @@ std::string steps_text(const MeshDescription& m) {
 
 std::string shapes_text(const MeshDescription& m) {
   const MeshQuality& q = m.quality;
-  const bool regions = !m.read.mesh.region.empty();
-  Rows worst = {
-      {"tetrahedron", "region", "edge / height", "angles between faces", "step alone", "at"}};
-  for (std::size_t i = 0; i < q.worst.size(); ++i) {
-    const TetShape& shape = q.worst[i];
-    const auto tet = static_cast<std::size_t>(shape.tet);
-    worst.push_back(
-        {std::to_string(m.read.report.tet_tags[tet]),
-         regions ? m.read.mesh.region_names[static_cast<std::size_t>(m.read.mesh.region[tet])] : "",
-         fmt::format("{:.3g}", shape.height_ratio),
-         fmt::format("{:.1f} - {:.1f} deg", shape.smallest_angle, shape.largest_angle),
-         in_units(m.worst_bounds[i], "s"), at(shape.centroid)});
-  }
-  if (!regions)
-    for (auto& row : worst) row.erase(row.begin() + 1);
   return "\nShape, smallest / mean / largest\n" +
          text_table({{"edges", lengths(q.edges)},
                      {"longest edge / smallest height", spread(q.height_ratios) + " (best: 1.22)"},
                      {"angles between faces", spread(q.dihedral_angles) + " deg (best: 70.5)"}},
                     "<<") +
          "\nThe worst, by their numbers in the file\n" +
-         text_table(worst, regions ? "><>>><" : ">>>><");
+         worst_columns(!m.read.mesh.region.empty()).text(worst_of(m));
 }
 
 std::string histogram_text(const std::string& title, const Histogram& histogram) {

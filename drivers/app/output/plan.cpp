@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/cycle_choice.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -159,15 +160,19 @@ std::string transfers_text(const Plan& plan) {
   return rows.size() == 1 ? "" : "\nBetween the levels\n" + text_table(rows, ">>>>");
 }
 
+const Table<Part> part_columns = {
+    {"", [](const Part& part) { return part.in ? "in" : "out"; }, {""}},
+    {"name", &Part::name, {""}},
+    {"in", &Part::in},
+    {"", [](const Part& part) { return part.in ? in_bytes(part.bytes) : ""; }, {"", "{}"}},
+    {"reason", &Part::reason, {""}},
+    {"bytes", &Part::bytes}};
+
 std::string parts_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows;
   std::size_t bytes = 0;
-  for (const Part& part : plan.parts) {
-    rows.push_back(
-        {part.in ? "in" : "out", part.name, part.in ? in_bytes(part.bytes) : "", part.reason});
-    bytes += part.bytes;
-  }
-  return fmt::format("\nParts, {} on the device\n", in_bytes(bytes)) + text_table(rows, "<<><");
+  for (const Part& part : plan.parts) bytes += part.bytes;
+  return fmt::format("\nParts, {} on the device\n", in_bytes(bytes)) +
+         part_columns.text(plan.parts);
 }
 
 }  // namespace
@@ -178,10 +183,6 @@ std::string plan_text(const Scene& scene, const Plan& plan) {
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan) {
-  Json parts = Json::array();
-  for (const Part& part : plan.parts)
-    parts.push_back(
-        {{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
   const Json json = {{"name", scene.name},
                      {"scene", scene.file},
                      {"duration", scene.duration},
@@ -200,7 +201,7 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                                              {"advice", him_advice(scene.problem, *plan.him,
                                                                    plan.levels, plan.macro_step)}}
                                       : Json(nullptr)},
-                     {"parts", parts}};
+                     {"parts", part_columns.json(plan.parts)}};
   return json_text(json);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/stability_table.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -13,50 +14,62 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Adds the state with which the scene's run failed, at the smallest macro step that was too long
-void add_failure(Json& json, const SceneLimit& scene) {
-  json["scene_failed_step"] = row_value(scene.failed_step);
-  json["scene_failed_time"] = scene.failed_step ? Json(scene.failed_time) : Json(nullptr);
-  json["scene_reason"] = row_value(scene.reason);
-  const bool known = scene.failure.has_value();
-  const Diagnosis d = scene.failure.value_or(Diagnosis{});
-  json["scene_kind"] = row_value(d.kind), json["scene_region"] = row_value(d.region);
-  json["scene_level"] = known ? Json(d.level) : Json(nullptr);
-  json["scene_element"] = known && d.element >= 0 ? Json(d.element) : Json(nullptr);
-  json["scene_vertex"] = known && d.vertex >= 0 ? Json(d.vertex) : Json(nullptr);
-  json["scene_J"] = known && d.element >= 0 ? Json(d.J) : Json(nullptr);
+// Returns a function of the scene's own limit, as one of the row; null: there is no such limit
+template <class Get>
+auto from_scene(Get get) {
+  return [get](const StabilityRow& row) {
+    return row.scene ? or_null(std::invoke(get, *row.scene)) : Json();
+  };
 }
 
-Json row_json(const StabilityRow& row) {
-  Json json = {{"method", row.method},
-               {"distribution", row_value(row.distribution)},
-               {"variant", row_value(row.variant)},
-               {"integrator", row_value(row.integrator)},
-               {"status", row.status},
-               {"reason", row_value(row.reason)},
-               {"critical_step", row.critical_step},
-               {"predicted", row_value(row.predicted)},
-               {"measured", row_value(row.measured)},
-               {"ratio", row_value(row.ratio)},
-               {"stable_up_to", row_value(row.stable_up_to)},
-               {"growth_step", row_value(row.growth_step)},
-               {"spectral_radius", row_value(row.spectral_radius)},
-               {"growth_per_second", row_value(row.growth_per_second)}};
-  json["scene_measured"] = row.scene ? row_value(row.scene->step) : Json(nullptr);
-  add_failure(json, row.scene.value_or(SceneLimit{}));
-  return json;
+// Returns the same of the state with which the scene's run failed
+template <class Get>
+auto from_failure(Get get) {
+  return from_scene([get](const SceneLimit& scene) {
+    return scene.failure ? or_null(std::invoke(get, *scene.failure)) : Json();
+  });
 }
 
-Json row_json(const MatrixRow& row) {
-  return {{"case", row.name},         {"method", row.method}, {"expected", row.expected},
-          {"outcome", row.outcome},   {"ok", row.ok},         {"detail", row_value(row.detail)},
-          {"why", row_value(row.why)}};
-}
+Json if_known(int index) { return index >= 0 ? Json(index) : Json(); }
 
-template <class Row>
-StabilityTexts texts(Json json, const std::vector<Row>& rows) {
-  json["rows"] = Json::array();
-  for (const Row& row : rows) json["rows"].push_back(row_json(row));
+const Table<StabilityRow> stability_columns = {
+    {"method", &StabilityRow::method},
+    {"distribution", &StabilityRow::distribution},
+    {"variant", &StabilityRow::variant},
+    {"integrator", &StabilityRow::integrator},
+    {"status", &StabilityRow::status},
+    {"reason", &StabilityRow::reason},
+    {"critical_step", &StabilityRow::critical_step},
+    {"predicted", &StabilityRow::predicted},
+    {"measured", &StabilityRow::measured},
+    {"ratio", &StabilityRow::ratio},
+    {"stable_up_to", &StabilityRow::stable_up_to},
+    {"growth_step", &StabilityRow::growth_step},
+    {"spectral_radius", &StabilityRow::spectral_radius},
+    {"growth_per_second", &StabilityRow::growth_per_second},
+    {"scene_measured", from_scene(&SceneLimit::step)},
+    {"scene_failed_step", from_scene(&SceneLimit::failed_step)},
+    {"scene_failed_time",
+     from_scene([](const SceneLimit& s) { return s.failed_step ? Json(s.failed_time) : Json(); })},
+    {"scene_reason", from_scene(&SceneLimit::reason)},
+    {"scene_kind", from_failure(&Diagnosis::kind)},
+    {"scene_region", from_failure(&Diagnosis::region)},
+    {"scene_level", from_failure(&Diagnosis::level)},
+    {"scene_element", from_failure([](const Diagnosis& d) { return if_known(d.element); })},
+    {"scene_vertex", from_failure([](const Diagnosis& d) { return if_known(d.vertex); })},
+    {"scene_J",
+     from_failure([](const Diagnosis& d) { return d.element >= 0 ? Json(d.J) : Json(); })}};
+
+const Table<MatrixRow> matrix_columns = {{"case", &MatrixRow::name},
+                                         {"method", &MatrixRow::method},
+                                         {"expected", &MatrixRow::expected},
+                                         {"outcome", &MatrixRow::outcome},
+                                         {"ok", &MatrixRow::ok},
+                                         {"detail", &MatrixRow::detail},
+                                         {"why", &MatrixRow::why}};
+
+StabilityTexts texts(Json json, const Json& rows) {
+  json["rows"] = with_nulls(rows);
   return {json_text(json), csv_table(json["rows"])};
 }
 
@@ -74,7 +87,7 @@ StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine,
                      {"material", scene.problem.body.material.model},
                      {"machine", machine_json(machine)},
                      {"left_out", result.left_out}};
-  return texts(json, result.rows);
+  return texts(json, stability_columns.json(result.rows));
 }
 
 StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result,
@@ -83,7 +96,7 @@ StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& 
                      {"ok", result.ok()},
                      {"machine", machine_json(machine)},
                      {"left_out", result.left_out}};
-  return texts(json, result.rows);
+  return texts(json, matrix_columns.json(result.rows));
 }
 
 namespace {
@@ -94,12 +107,16 @@ std::string step_or(const std::optional<double>& step, const std::string& none) 
   return step ? *step > 0 ? in_units(*step, "s") : "none" : none;
 }
 
+std::string predicted_of(const StabilityRow& row) {
+  return step_or(row.predicted, row.status == "refused" ? "refused" : "no limit");
+}
+
 std::string measured_of(const StabilityRow& row) {
   return row.stable_up_to ? "none up to " + in_units(*row.stable_up_to, "s")
                           : step_or(row.measured, "");
 }
 
-std::string growth_of(const StabilityRow& row) {
+std::string growth_of_small_motions(const StabilityRow& row) {
   if (!row.growth_per_second || *row.spectral_radius <= 1 + 1e-6) return "";
   return fmt::format("{:.2g} per second at {}", *row.growth_per_second,
                      in_units(*row.growth_step, "s"));
@@ -131,18 +148,16 @@ std::string stability_text(const Scene& scene, const StabilityResult& result,
                            const std::string& folder) {
   const bool own = std::ranges::any_of(
       result.rows, [](const StabilityRow& row) { return row.scene.has_value(); });
-  std::vector<std::vector<std::string>> table = {{"largest stable macro step", "predicted",
-                                                  "of small motions", "ratio",
-                                                  own ? "of the scene" : "", "growth"}};
-  for (const StabilityRow& row : result.rows)
-    table.push_back({row.label(),
-                     step_or(row.predicted, row.status == "refused" ? "refused" : "no limit"),
-                     measured_of(row), row.ratio ? fmt::format("{:.3f}", *row.ratio) : "",
-                     scene_of(row), growth_of(row)});
+  const Table<StabilityRow> table = {{"", &StabilityRow::label, {"largest stable macro step"}},
+                                     {"", predicted_of, {"predicted", "{}"}},
+                                     {"", measured_of, {"of small motions", "{}"}},
+                                     {"", &StabilityRow::ratio, {"ratio", "{:.3f}"}},
+                                     {"", scene_of, {own ? "of the scene" : "", "{}"}},
+                                     {"", growth_of_small_motions, {"growth", "{}"}}};
   std::string text = fmt::format("{}: {}{}\n", scene.name,
                                  counted(static_cast<long>(result.rows.size()), "method"),
                                  result.stopped ? ", interrupted" : "");
-  text += text_table(table, "<>>>>>") + failures_text(result);
+  text += table.text(result.rows) + failures_text(result);
   if (!result.left_out.empty())
     text += wrapped(fmt::format("Left out: {}", fmt::join(result.left_out, "; ")), width, "");
   return text + fmt::format(

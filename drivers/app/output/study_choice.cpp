@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
@@ -116,8 +116,8 @@ Json choices_json(const StudyResult& result, const std::vector<Json>& levels) {
     json.push_back({{"error_class", choice.error_class},
                     {"allowed", choice.allowed},
                     {"case", row ? Json(row->key) : Json()},
-                    {"error", row ? row_value(row->judged()) : Json()},
-                    {"wall_time", row ? row_value(row->wall_time) : Json()},
+                    {"error", row ? or_null(row->judged()) : Json()},
+                    {"wall_time", row ? or_null(row->wall_time) : Json()},
                     {"settings", row ? settings_of(*row, levels) : Json()},
                     {"reason", choice.reason}});
   }

@@ -56,6 +56,16 @@ Trajectory take(const std::string& bytes, std::size_t& at, std::size_t samples,
   return trajectory;
 }
 
+// Columns of the reference without its motions
+const Table<StudyReference> reference_columns = {
+    {"method", &StudyReference::method},
+    {"macro_step", &StudyReference::macro_step},
+    {"critical_step", &StudyReference::critical_step},
+    {"own_error", &StudyReference::own_error},
+    {"own_error_velocity", &StudyReference::own_error_velocity},
+    {"wall_time", &StudyReference::wall_time},
+    {"seconds_per_evaluation", &StudyReference::seconds_per_evaluation}};
+
 }  // namespace
 
 std::string reference_bytes(const StudyReference& r, std::uint64_t digest) {
@@ -64,23 +74,16 @@ std::string reference_bytes(const StudyReference& r, std::uint64_t digest) {
   if (r.finer) append(states, *r.finer);
   if (r.truth) append(states, r.probes);
   for (const MeshReference& mesh : r.meshes) append(states, mesh.trajectory);
-  const Json head = {{"plica_reference", format_version},
-                     {"of", digest},
-                     {"states", digest_of_states(states)},
-                     {"method", r.method},
-                     {"macro_step", r.macro_step},
-                     {"critical_step", r.critical_step},
-                     {"own_error", r.own_error},
-                     {"own_error_velocity", r.own_error_velocity},
-                     {"wall_time", r.wall_time},
-                     {"seconds_per_evaluation", r.seconds_per_evaluation},
-                     {"space_error", r.space_error.value_or(0)},
-                     {"samples", r.trajectory.times.size()},
-                     {"vertices", r.trajectory.u.front().size()},
-                     {"finer", r.finer.has_value()},
-                     {"truth", r.truth ? truth_json(*r.truth) : Json()},
-                     {"meshes", meshes_json(r.meshes)},
-                     {"probes", r.truth ? r.probes.u.front().size() : 0}};
+  Json head = {
+      {"plica_reference", format_version}, {"of", digest}, {"states", digest_of_states(states)}};
+  head.update(reference_columns.json(r));
+  head.update({{"space_error", r.space_error.value_or(0)},
+               {"samples", r.trajectory.times.size()},
+               {"vertices", r.trajectory.u.front().size()},
+               {"finer", r.finer.has_value()},
+               {"truth", r.truth ? truth_columns().json(*r.truth) : Json()},
+               {"meshes", mesh_columns().json(r.meshes)},
+               {"probes", r.truth ? r.probes.u.front().size() : 0}});
   return head.dump() + "\n" + states;
 }
 
@@ -93,17 +96,11 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
       head.at("states") != digest_of_states(states))
     return {};
   StudyReference r;
-  head.at("method").get_to(r.method);
-  head.at("macro_step").get_to(r.macro_step);
-  head.at("critical_step").get_to(r.critical_step);
-  head.at("own_error").get_to(r.own_error);
-  head.at("own_error_velocity").get_to(r.own_error_velocity);
-  head.at("wall_time").get_to(r.wall_time);
-  head.at("seconds_per_evaluation").get_to(r.seconds_per_evaluation);
+  reference_columns.read(head, r);
   const auto samples = head.at("samples").get<std::size_t>(),
              vertices = head.at("vertices").get<std::size_t>();
   const bool finer = head.at("finer").get<bool>(), truth = !head.at("truth").is_null();
-  r.meshes = meshes_of(head.at("meshes"));
+  mesh_columns().read(head.at("meshes"), r.meshes);
   const auto size_of = [&](std::size_t points) {
     return samples * (1 + 6 * points) * sizeof(double);
   };
@@ -116,7 +113,9 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
   if (finer)
     r.finer = take(states, at, samples, vertices),
     r.space_error = head.at("space_error").get<double>();
-  if (truth) r.truth = truth_of(head.at("truth")), r.probes = take(states, at, samples, probes);
+  if (truth)
+    truth_columns().read(head.at("truth"), r.truth.emplace()),
+        r.probes = take(states, at, samples, probes);
   for (MeshReference& mesh : r.meshes) mesh.trajectory = take(states, at, samples, vertices);
   return r;
 } catch (const Json::exception&) {

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/study_table.hpp>
@@ -16,73 +18,48 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Visits the members of a row with their names in study.json; used for writing and reading
-template <class Row, class Visit>
-void each_member(Row& row, const Visit& visit) {
-  visit("method", row.method);
-  visit("distribution", row.distribution);
-  visit("variant", row.variant);
-  visit("macro_step", row.macro_step);
-  visit("macro_step_over_critical", row.macro_step_over_critical);
-  visit("automatic", row.automatic);
-  visit("element", row.element);
-  visit("precision", row.precision);
-  visit("threads", row.threads);
-  visit("status", row.status);
-  visit("reason", row.reason);
-  visit("reached", row.reached);
-  visit("error", row.error);
-  visit("error_velocity", row.error_velocity);
-  visit("error_worst_vertex", row.error_worst_vertex);
-  visit("total_error", row.total_error);
-  visit("space_error", row.space_error);
-  visit("error_finer", row.error_finer);
-  visit("error_probes", row.error_probes);
-  visit("energy_drift", row.energy_drift);
-  visit("phase", row.phase);
-  visit("wall_time", row.wall_time);
-  visit("wall_time_spread", row.wall_time_spread);
-  visit("timed_runs", row.timed_runs);
-  visit("setup_time", row.setup_time);
-  visit("work", row.work);
-  visit("spectral_radius", row.spectral_radius);
-  visit("spectral_radius_uncertainty", row.spectral_radius_uncertainty);
-  visit("growth_per_second", row.growth_per_second);
-  visit("pareto", row.pareto);
-  visit("case", row.key);
-}
-
-using Probes = std::map<std::string, std::optional<double>>;
-
-using app::row_value;
-Json row_value(const Probes& probes) {
+Json probes_json(const StudyRow& row) {
   Json json;  // null: there are no probes
-  for (const auto& [name, value] : probes) json[name] = row_value(value);
+  for (const auto& [name, value] : row.error_probes) json[name] = or_null(value);
   return json;
 }
 
-template <class T>
-void read(const Json& json, T& value) {
-  if (!json.is_null()) json.get_to(value);
-}
-void read(const Json& json, std::optional<double>& value) {
-  if (!json.is_null()) value = json.get<double>();
-}
-void read(const Json& json, Probes& probes) {
-  for (const auto& [name, value] : json.items()) read(value, probes[name]);
+void read_probes(const Json& json, StudyRow& row) {
+  for (const auto& [name, value] : json.items()) read_value(value, row.error_probes[name]);
 }
 
-Json row_json(const StudyRow& row) {
-  Json json;
-  each_member(row, [&](const char* name, const auto& value) { json[name] = row_value(value); });
-  return json;
-}
-
-StudyRow row_of(const Json& json) {
-  StudyRow row;
-  each_member(row, [&](const char* name, auto& value) { read(json.at(name), value); });
-  return row;
-}
+const Table<StudyRow> study_columns = {
+    {"method", &StudyRow::method},
+    {"distribution", &StudyRow::distribution},
+    {"variant", &StudyRow::variant},
+    {"macro_step", &StudyRow::macro_step},
+    {"macro_step_over_critical", &StudyRow::macro_step_over_critical},
+    {"automatic", &StudyRow::automatic},
+    {"element", &StudyRow::element},
+    {"precision", &StudyRow::precision},
+    {"threads", &StudyRow::threads},
+    {"status", &StudyRow::status},
+    {"reason", &StudyRow::reason},
+    {"reached", &StudyRow::reached},
+    {"error", &StudyRow::error},
+    {"error_velocity", &StudyRow::error_velocity},
+    {"error_worst_vertex", &StudyRow::error_worst_vertex},
+    {"total_error", &StudyRow::total_error},
+    {"space_error", &StudyRow::space_error},
+    {"error_finer", &StudyRow::error_finer},
+    {"error_probes", probes_json, read_probes},
+    {"energy_drift", &StudyRow::energy_drift},
+    {"phase", &StudyRow::phase},
+    {"wall_time", &StudyRow::wall_time},
+    {"wall_time_spread", &StudyRow::wall_time_spread},
+    {"timed_runs", &StudyRow::timed_runs},
+    {"setup_time", &StudyRow::setup_time},
+    {"work", &StudyRow::work},
+    {"spectral_radius", &StudyRow::spectral_radius},
+    {"spectral_radius_uncertainty", &StudyRow::spectral_radius_uncertainty},
+    {"growth_per_second", &StudyRow::growth_per_second},
+    {"pareto", &StudyRow::pareto},
+    {"case", &StudyRow::key}};
 
 Json reference_json(const StudyResult& result) {
   const StudyReference& r = result.reference;
@@ -91,11 +68,12 @@ Json reference_json(const StudyResult& result) {
                {"critical_step", r.critical_step},
                {"own_error", r.own_error},
                {"own_error_velocity", r.own_error_velocity},
-               {"smallest_error", row_value(smallest_error(result.rows))},
+               {"smallest_error", or_null(smallest_error(result.rows))},
                {"good_enough", good_enough(result)},
-               {"space_error", row_value(r.space_error)},
+               {"space_error", or_null(r.space_error)},
                {"wall_time", r.wall_time}};
-  if (r.truth) json["truth"] = truth_json(*r.truth), json["meshes"] = meshes_json(r.meshes);
+  if (r.truth)
+    json["truth"] = truth_columns().json(*r.truth), json["meshes"] = mesh_columns().json(r.meshes);
   return json;
 }
 
@@ -114,9 +92,8 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine,
                {"digest", head.digest},
                {"reference", reference_json(result)},
                {"choices", choices_json(result, head.levels)},
-               {"rows", Json::array()},
+               {"rows", with_nulls(study_columns.json(result.rows))},
                {"left_out", Json::array()}};
-  for (const StudyRow& row : result.rows) json["rows"].push_back(row_json(row));
   for (const LeftOut& one : result.left_out)
     json["left_out"].push_back({{"case", one.key}, {"reason", one.reason}});
   if (!stopped.empty())
@@ -128,8 +105,7 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine,
 std::vector<StudyRow> rows_of_study(const std::string& text, const std::string& digest) try {
   const Json json = Json::parse(text);
   std::vector<StudyRow> rows;
-  if (json.at("digest") == digest)
-    for (const Json& row : json.at("rows")) rows.push_back(row_of(row));
+  if (json.at("digest") == digest) study_columns.read(json.at("rows"), rows);
   return rows;
 } catch (const Json::exception&) {
   return {};
@@ -143,26 +119,23 @@ bool holds_other_rows(const std::string& text, const std::string& digest) try {
 }
 
 std::string study_csv(const std::vector<StudyRow>& rows) {
-  StudyRow columns;
+  StudyRow all;
   for (const StudyRow& row : rows)
-    for (const auto& [name, value] : row.error_probes) columns.error_probes[name];
-  std::string text;
-  const auto add_line = [&](const Json& row, bool names) {
-    std::string line;
-    const auto add = [&](const std::string& name, const Json& value) {
-      line += (line.empty() ? "" : ",") + csv_field(names ? Json(name) : value);
-    };
-    for (const auto& [name, value] : row.items()) {
-      if (name != "error_probes") add(name, value);
-      if (name == "error_probes")
-        for (const auto& [probe, unused] : columns.error_probes)
-          add(name + "." + probe, value.is_null() ? Json() : value.value(probe, Json()));
-    }
-    text += line + "\n";
+    for (const auto& [probe, value] : row.error_probes) all.error_probes[probe];
+  const auto flat = [&](const StudyRow& row) {
+    Json line;
+    const Json nested = study_columns.json(row);
+    for (const auto& [name, value] : nested.items())
+      if (name != "error_probes")
+        line[name] = value;
+      else
+        for (const auto& [probe, unused] : all.error_probes)
+          line[name + "." + probe] = value.is_null() ? Json() : value.value(probe, Json());
+    return line;
   };
-  add_line(row_json(columns), true);
-  for (const StudyRow& row : rows) add_line(row_json(row), false);
-  return text;
+  Json lines = Json::array();
+  for (const StudyRow& row : rows) lines.push_back(flat(row));
+  return csv_table(lines, flat(all));
 }
 
 namespace {
@@ -199,36 +172,30 @@ std::string reference_text(const StudyResult& result) {
   return wrapped(text, table_width, "");
 }
 
-std::string growth_of(const StudyRow& row) {
-  if (!row.spectral_radius) return "";
-  if (!grows(row)) return "none";
-  return fmt::format("{:.2g} per second", *row.growth_per_second);
+std::optional<std::string> growth_of(const StudyRow& row) {
+  if (!row.spectral_radius) return {};
+  return grows(row) ? fmt::format("{:.2g} per second", *row.growth_per_second) : "none";
 }
 
 std::string pareto_text(const StudyResult& result) {
-  std::vector<const StudyRow*> front;
-  for (const StudyRow& row : result.rows)
-    if (row.pareto) front.push_back(&row);
+  std::vector<StudyRow> front;
+  std::ranges::copy_if(result.rows, std::back_inserter(front), &StudyRow::pareto);
   if (front.empty()) return "No method completed.\n";
-  std::ranges::sort(front, {}, [](const StudyRow* row) { return *row->wall_time; });
-  const bool growth = std::ranges::any_of(
-      front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
-  std::vector<std::vector<std::string>> table = {{"the best for their time", "macro step",
-                                                  "x critical", "error", "of velocity", "time",
-                                                  "work"}};
-  const bool truth = result.reference.truth.has_value();
-  if (truth) table[0].insert(table[0].end(), {"in space", "in time"});
-  if (growth) table[0].emplace_back("growth");
-  for (const StudyRow* row : front) {
-    table.push_back({name_of(*row, result), in_units(*row->macro_step, "s"),
-                     fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->judged()),
-                     percent(*row->error_velocity), in_units(*row->wall_time, "s"),
-                     fmt::format("{:.3g}", *row->work)});
-    if (truth)
-      table.back().insert(table.back().end(), {percent(*row->space_error), percent(*row->error)});
-    if (growth) table.back().push_back(growth_of(*row));
-  }
-  return text_table(table, "<>>>>>>>>>");
+  std::ranges::sort(front, {}, &StudyRow::wall_time);
+  Table<StudyRow> table = {
+      {"", [&](const StudyRow& row) { return name_of(row, result); }, {"the best for their time"}},
+      {"", &StudyRow::macro_step, {"macro step", "s"}},
+      {"", &StudyRow::macro_step_over_critical, {"x critical", "{:.3g}"}},
+      {"", &StudyRow::judged, {"error", "%"}},
+      {"", &StudyRow::error_velocity, {"of velocity", "%"}},
+      {"", &StudyRow::wall_time, {"time", "s"}},
+      {"", &StudyRow::work, {"work", "{:.3g}"}}};
+  if (result.reference.truth)
+    table.add({"", &StudyRow::space_error, {"in space", "%"}}),
+        table.add({"", &StudyRow::error, {"in time", "%"}});
+  if (std::ranges::any_of(front, [](const StudyRow& row) { return growth_of(row).has_value(); }))
+    table.add({"", growth_of, {"growth", "{}"}});
+  return table.text(front);
 }
 
 // Returns how small motions about rest grow in all rows of linearised cycles. Growth is the change

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/cycle_choice.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -111,37 +112,35 @@ const char* level_kind_name(LevelKind kind) {
 }
 
 Json levels_json(const std::vector<LevelReport>& levels) {
-  Json list = Json::array();
-  for (const LevelReport& level : levels) {
-    Json stiffest = Json::array();
-    for (const StiffElement& e : level.stiffest)
-      stiffest.push_back({{"element", e.element},
-                          {"region", e.region},
-                          {"height_ratio", e.height_ratio},
-                          {"step", e.step}});
-    list.push_back(
-        {{"kind", level_kind_name(level.kind)},
-         {"vertices", level.vertices},
-         {"tets", level.tets},
-         {"filled", level.filled},
-         {"nonzeros_per_row", has_elements(level) ? Json(nullptr) : Json(level.nonzeros)},
-         {"mean_edge", level.mean_edge},
-         {"mass", level.mass},
-         {"critical_step", level.critical_step},
-         {"element_bound", level.element_bound},
-         {"share", level.share},
-         {"substeps", level.substeps},
-         {"element", level.element},
-         {"integrator", level.integrator},
-         {"inertia", level.inertia},
-         {"detail_step", level.detail_step},
-         {"outside_down", level.outside_down},
-         {"outside_up", level.outside_up},
-         {"largest_miss", level.largest_miss},
-         {"typical_element", level.typical_element},
-         {"stiffest", stiffest}});
-  }
-  return list;
+  static const Table<StiffElement> stiffest = {{"element", &StiffElement::element},
+                                               {"region", &StiffElement::region},
+                                               {"height_ratio", &StiffElement::height_ratio},
+                                               {"step", &StiffElement::step}};
+  static const Table<LevelReport> columns = {
+      {"kind", [](const LevelReport& level) { return level_kind_name(level.kind); }},
+      {"vertices", &LevelReport::vertices},
+      {"tets", &LevelReport::tets},
+      {"filled", &LevelReport::filled},
+      {"nonzeros_per_row",
+       [](const LevelReport& level) {
+         return has_elements(level) ? Json() : Json(level.nonzeros);
+       }},
+      {"mean_edge", &LevelReport::mean_edge},
+      {"mass", &LevelReport::mass},
+      {"critical_step", &LevelReport::critical_step},
+      {"element_bound", &LevelReport::element_bound},
+      {"share", &LevelReport::share},
+      {"substeps", &LevelReport::substeps},
+      {"element", &LevelReport::element},
+      {"integrator", &LevelReport::integrator},
+      {"inertia", &LevelReport::inertia},
+      {"detail_step", &LevelReport::detail_step},
+      {"outside_down", &LevelReport::outside_down},
+      {"outside_up", &LevelReport::outside_up},
+      {"largest_miss", &LevelReport::largest_miss},
+      {"typical_element", &LevelReport::typical_element},
+      part("stiffest", &LevelReport::stiffest, stiffest)};
+  return columns.json(levels);
 }
 
 Json bodies_json(const Body& body) {
@@ -178,7 +177,7 @@ std::string summary_json(const Scene& scene, const Summary& s,
                      {"precision", s.precision},
                      {"backend", s.backend},
                      {"threads", s.threads},
-                     {"wait_share", s.wait_share ? Json(*s.wait_share) : Json()},
+                     {"wait_share", or_null(s.wait_share)},
                      {"cycle", s.cycle},
                      {"choice", choice_json(s.choice)},
                      {"bodies", bodies_json(scene.problem.body)},
@@ -295,8 +294,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                   : std::string{};
   const std::string waited =
       s.wait_share.value_or(0) > notable_wait
-          ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
-                        100 * *s.wait_share, s.threads > 1 ? ", fewer threads were tried" : "")
+          ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them",
+                        100 * *s.wait_share)
           : "";
   std::vector<std::vector<std::string>> rows = {
       {"simulated",

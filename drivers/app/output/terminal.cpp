@@ -47,6 +47,8 @@ std::string in_units(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
+
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=:,@%";

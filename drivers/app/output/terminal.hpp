@@ -29,6 +29,9 @@ void message(const std::string& text);
 /// prefix. A value in kg gets no prefix.
 std::string in_units(double value, const std::string& unit);
 
+/// Returns a fraction as text: "0.123 %".
+std::string percent(double fraction);
+
 /// Returns the text as one word of a shell's command line, quoted if needed.
 std::string shell_word(const std::string& text);
 

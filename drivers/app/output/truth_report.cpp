@@ -3,76 +3,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
 
 namespace plica::app {
 
-using Json = nlohmann::ordered_json;
-
-std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
-
-namespace {
-
-Json family_json(const TruthFamily& family) {
-  Json json = {{"name", family.name},
-               {"order", row_value(family.order)},
-               {"used_order", family.used_order},
-               {"correction", family.correction},
-               {"own_error", family.own_error},
-               {"meshes", Json::array()}};
-  for (const TruthMesh& m : family.meshes)
-    json["meshes"].push_back({{"tets", m.tets},
-                              {"macro_step", m.macro_step},
-                              {"wall_time", m.wall_time},
-                              {"error", m.error}});
-  return json;
+const Table<Truth>& truth_columns() {
+  static const Table<TruthMesh> meshes = {{"tets", &TruthMesh::tets},
+                                          {"macro_step", &TruthMesh::macro_step},
+                                          {"wall_time", &TruthMesh::wall_time},
+                                          {"error", &TruthMesh::error}};
+  static const Table<TruthFamily> family = {{"name", &TruthFamily::name},
+                                            {"order", &TruthFamily::order},
+                                            {"used_order", &TruthFamily::used_order},
+                                            {"correction", &TruthFamily::correction},
+                                            {"own_error", &TruthFamily::own_error},
+                                            part("meshes", &TruthFamily::meshes, meshes)};
+  static const Table<Truth> columns = {{"error", &Truth::error},
+                                       {"converges", &Truth::converges},
+                                       part("family", &Truth::family, family),
+                                       part("check", &Truth::check, family),
+                                       {"difference", &Truth::difference},
+                                       {"time_error", &Truth::time_error}};
+  return columns;
 }
 
-TruthFamily family_of(const Json& json) {
-  TruthFamily family;
-  json.at("name").get_to(family.name);
-  if (!json.at("order").is_null()) family.order = json.at("order").get<double>();
-  json.at("used_order").get_to(family.used_order);
-  json.at("correction").get_to(family.correction);
-  json.at("own_error").get_to(family.own_error);
-  for (const Json& m : json.at("meshes"))
-    family.meshes.push_back({m.at("tets"), m.at("macro_step"), m.at("wall_time"), m.at("error")});
-  return family;
-}
-
-}  // namespace
-
-Json truth_json(const Truth& truth) {
-  return {{"error", truth.error()},
-          {"converges", truth.converges()},
-          {"family", family_json(truth.family)},
-          {"check", family_json(truth.check)},
-          {"difference", truth.difference},
-          {"time_error", truth.time_error}};
-}
-
-Truth truth_of(const Json& json) {
-  return {family_of(json.at("family")), family_of(json.at("check")), json.at("difference"),
-          json.at("time_error")};
-}
-
-Json meshes_json(const std::vector<MeshReference>& meshes) {
-  Json json = Json::array();
-  for (const MeshReference& m : meshes)
-    json.push_back({{"element", m.element},
-                    {"level", m.level},
-                    {"own_error", m.own_error},
-                    {"error_space", m.error_space}});
-  return json;
-}
-
-std::vector<MeshReference> meshes_of(const Json& json) {
-  std::vector<MeshReference> meshes;
-  for (const Json& m : json)
-    meshes.push_back({m.at("element"), m.at("level"), m.at("own_error"), m.at("error_space"), {}});
-  return meshes;
+const Table<MeshReference>& mesh_columns() {
+  static const Table<MeshReference> columns = {
+      {"",
+       [](const MeshReference& mesh) { return fmt::format("level {}", mesh.level); },
+       {"error in space of"}},
+      {"element", &MeshReference::element, {"elements"}},
+      {"level", &MeshReference::level},
+      {"own_error", &MeshReference::own_error},
+      {"error_space", &MeshReference::error_space, {"error", "%"}}};
+  return columns;
 }
 
 std::optional<TimeForError> time_for(const TruthFamily& family, double error) {
@@ -136,10 +101,7 @@ std::string truth_text(const StudyResult& result) {
           t.family.name, tets, in_units(r.wall_time, "s")) +
           quality_text(result),
       text_width, "");
-  std::vector<std::vector<std::string>> table = {{"error in space of", "elements", "error"}};
-  for (const MeshReference& m : r.meshes)
-    table.push_back({fmt::format("level {}", m.level), m.element, percent(m.error_space)});
-  text += text_table(table, "<<>");
+  text += mesh_columns().text(r.meshes);
   for (const TruthFamily* family : {&t.family, &t.check}) text += need_text(*family);
   return text;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/study/study.hpp>
 #include <string>
 #include <vector>
@@ -9,18 +9,10 @@ namespace plica::app {
 
 inline constexpr std::size_t text_width = 110;  ///< columns of a study's text
 
-/// Returns a fraction as text: "0.123 %".
-std::string percent(double fraction);
-
-/// Returns how the truth was found, as in study.json and reference.bin.
-nlohmann::ordered_json truth_json(const Truth& truth);
-/// Returns the data that truth_json() has written.
-Truth truth_of(const nlohmann::ordered_json& json);
-
-/// Returns the error in space of each level with each kind of elements, without the trajectories.
-nlohmann::ordered_json meshes_json(const std::vector<MeshReference>& meshes);
-/// Returns the data that meshes_json() has written.
-std::vector<MeshReference> meshes_of(const nlohmann::ordered_json& json);
+/// Returns the columns of how the truth was found, for study.json and reference.bin.
+const Table<Truth>& truth_columns();
+/// Returns the columns of the error in space of each level with each kind of elements.
+const Table<MeshReference>& mesh_columns();
 
 /// Returns as text how the truth was found, how good it is, and the error of each mesh against it.
 std::string truth_text(const StudyResult& result);

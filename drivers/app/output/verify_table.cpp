@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <plica/drivers/app/output/columns.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/verify_table.hpp>
@@ -14,79 +15,77 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json row_head(const VerifyRow& row) {
-  return {{"problem", row.problem},
-          {"quantity", row.quantity},
-          {"unit", row.unit},
-          {"element", row.element},
-          {"mesh", row.mesh},
-          {"accepted", row_value(row.accepted)},
-          {"source", row_value(row.source)}};
+// Names and demands of the criteria, in the order of Judged
+struct Criterion {
+  const char *name, *demand;
+  double factor;  // factor of the tolerance in the demand
+};
+constexpr Criterion criteria[] = {{"finest", "finest within {:.3g} %", 100},
+                                  {"limit", "limit within {:.3g} %", 100},
+                                  {"size", "at most {:.0e}", 1},
+                                  {"order", "order within {:.2g}", 1},
+                                  {"above", "falls, stays above", 1},
+                                  {"nothing", "for information", 1}};
+
+const Criterion& criterion(const VerifyRow& row) {
+  return criteria[static_cast<std::size_t>(row.judged)];
 }
 
-Json row_end(const VerifyRow& row) {
-  return {
-      {"limit", row_value(row.limit)},
-      {"order", row_value(row.order)},
-      {"judged", judged_name(row.judged)},
-      {"tolerance",
-       row.judged == Judged::nothing || row.judged == Judged::above ? Json() : Json(row.tolerance)},
-      {"outcome", row.outcome},
-      {"ok", row.outcome != "not ok"},
-      {"note", row_value(row.note)}};
-}
+Json if_said(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+const Table<VerifyValue> value_columns = {
+    {"mesh", &VerifyValue::mesh}, {"size", &VerifyValue::size}, {"value", &VerifyValue::value}};
+
+const Table<VerifyRow> verify_columns = {
+    {"problem", &VerifyRow::problem},
+    {"quantity", &VerifyRow::quantity},
+    {"unit", &VerifyRow::unit},
+    {"element", &VerifyRow::element},
+    {"mesh", &VerifyRow::mesh},
+    {"accepted", &VerifyRow::accepted},
+    {"source", [](const VerifyRow& row) { return if_said(row.source); }},
+    part("ours", &VerifyRow::ours, value_columns),
+    {"limit", &VerifyRow::limit},
+    {"order", &VerifyRow::order},
+    {"judged", [](const VerifyRow& row) { return criterion(row).name; }},
+    {"tolerance",
+     [](const VerifyRow& row) {
+       const bool has_none = row.judged == Judged::nothing || row.judged == Judged::above;
+       return has_none ? Json() : Json(row.tolerance);
+     }},
+    {"outcome", &VerifyRow::outcome},
+    {"ok", [](const VerifyRow& row) { return row.outcome != "not ok"; }},
+    {"note", [](const VerifyRow& row) { return if_said(row.note); }}};
 
 }  // namespace
 
-std::string judged_name(Judged judged) {
-  switch (judged) {
-    case Judged::finest:
-      return "finest";
-    case Judged::limit:
-      return "limit";
-    case Judged::size:
-      return "size";
-    case Judged::order:
-      return "order";
-    case Judged::above:
-      return "above";
-    case Judged::nothing:
-      break;
-  }
-  return "nothing";
-}
-
 std::string verify_json(const VerifyHead& head, const VerifyResult& result) {
-  Json json = {{"status", head.status},       {"ok", result.ok()},
-               {"small", head.small},         {"machine", machine_json(head.machine)},
-               {"wall_time", head.wall_time}, {"rows", Json::array()}};
-  for (const VerifyRow& row : result.rows) {
-    Json one = row_head(row);
-    one["ours"] = Json::array();
-    for (const VerifyValue& v : row.ours)
-      one["ours"].push_back({{"mesh", v.mesh}, {"size", v.size}, {"value", v.value}});
-    one.update(row_end(row));
-    json["rows"].push_back(one);
-  }
-  return json_text(json);
+  return json_text({{"status", head.status},
+                    {"ok", result.ok()},
+                    {"small", head.small},
+                    {"machine", machine_json(head.machine)},
+                    {"wall_time", head.wall_time},
+                    {"rows", verify_columns.json(result.rows)}});
 }
 
 std::string verify_csv(const VerifyResult& result) {
-  Json rows = Json::array();
-  for (const VerifyRow& row : result.rows)
-    for (const VerifyValue& v : row.ours) {
-      Json one = row_head(row);
-      one["mesh"] = v.mesh, one["size"] = v.size, one["value"] = v.value;
-      one.update(row_end(row));
-      rows.push_back(one);
+  Json lines = Json::array();
+  for (const Json& row : verify_columns.json(result.rows))
+    for (const Json& ours : row["ours"]) {
+      Json& line = lines.emplace_back();
+      for (const auto& [name, value] : row.items())
+        if (name == "ours")
+          line["size"] = ours["size"], line["value"] = ours["value"];
+        else
+          line[name] = name == "mesh" ? ours[name] : value;
     }
-  return csv_table(rows);
+  return csv_table(lines);
 }
 
 namespace {
 
-std::string number(const std::optional<double>& value, const char* none = "") {
-  return value ? fmt::format("{:.5g}", *value) : none;
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.5g}", *value) : "";
 }
 
 std::string with_unit(const std::optional<double>& value, const std::string& unit) {
@@ -95,21 +94,7 @@ std::string with_unit(const std::optional<double>& value, const std::string& uni
 
 // Returns what the row had to fulfil
 std::string demand(const VerifyRow& row) {
-  switch (row.judged) {
-    case Judged::finest:
-      return fmt::format("finest within {:.3g} %", 100 * row.tolerance);
-    case Judged::limit:
-      return fmt::format("limit within {:.3g} %", 100 * row.tolerance);
-    case Judged::size:
-      return fmt::format("at most {:.0e}", row.tolerance);
-    case Judged::order:
-      return fmt::format("order within {:.2g}", row.tolerance);
-    case Judged::above:
-      return "falls, stays above";
-    case Judged::nothing:
-      break;
-  }
-  return "for information";
+  return fmt::format(fmt::runtime(criterion(row).demand), criterion(row).factor * row.tolerance);
 }
 
 std::string accepted(const VerifyRow& row) {
@@ -119,17 +104,12 @@ std::string accepted(const VerifyRow& row) {
 
 // Returns the value on the finest mesh; for errors that must be round-off, the largest of all
 // meshes
-std::optional<double> headline(const VerifyRow& row) {
+std::string headline(const VerifyRow& row) {
   if (row.ours.empty()) return {};
   double worst = 0;
   for (const VerifyValue& v : row.ours)
     worst = std::abs(v.value) <= worst ? worst : std::abs(v.value);
-  return row.judged == Judged::size ? worst : row.ours.back().value;
-}
-
-std::string limit(const VerifyRow& row) { return number(row.limit); }
-std::string order(const VerifyRow& row) {
-  return row.order ? fmt::format("{:.2f}", *row.order) : "";
+  return with_unit(row.judged == Judged::size ? worst : row.ours.back().value, row.unit);
 }
 
 std::string values(const VerifyRow& row) {
@@ -139,35 +119,29 @@ std::string values(const VerifyRow& row) {
   return text;
 }
 
-using Cell = std::string (*)(const VerifyRow&);
+std::string quantity_and_unit(const VerifyRow& row) {
+  return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]");
+}
 
-// Column of the tables in verify.md and on the terminal; text null: not on the terminal
-struct Column {
-  const char* name;
-  Cell markdown, text;
-};
+const Table<VerifyRow> markdown_columns = {{"", &VerifyRow::problem, {"problem"}},
+                                           {"", quantity_and_unit, {"quantity"}},
+                                           {"", &VerifyRow::element, {"element"}},
+                                           {"", &VerifyRow::mesh, {"mesh"}},
+                                           {"", accepted, {"accepted"}},
+                                           {"", &VerifyRow::source, {"source"}},
+                                           {"", values, {"ours"}},
+                                           {"", &VerifyRow::limit, {"limit", "{:.5g}"}},
+                                           {"", &VerifyRow::order, {"order", "{:.2f}"}},
+                                           {"", demand, {"asked"}},
+                                           {"", &VerifyRow::outcome, {"outcome"}},
+                                           {"", &VerifyRow::note, {"note"}}};
 
-const Column columns[] = {
-    {"problem", [](const VerifyRow& row) { return row.problem; },
-     [](const VerifyRow& row) { return row.problem; }},
-    {"quantity",
-     [](const VerifyRow& row) {
-       return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]");
-     },
-     [](const VerifyRow& row) { return row.quantity; }},
-    {"element", [](const VerifyRow& row) { return row.element; },
-     [](const VerifyRow& row) { return row.element; }},
-    {"mesh", [](const VerifyRow& row) { return row.mesh; },
-     [](const VerifyRow& row) { return row.mesh; }},
-    {"accepted", accepted, accepted},
-    {"source", [](const VerifyRow& row) { return row.source; }, nullptr},
-    {"ours", values, [](const VerifyRow& row) { return with_unit(headline(row), row.unit); }},
-    {"limit", limit, limit},
-    {"order", order, order},
-    {"asked", demand, nullptr},
-    {"outcome", [](const VerifyRow& row) { return row.outcome; },
-     [](const VerifyRow& row) { return row.outcome; }},
-    {"note", [](const VerifyRow& row) { return row.note; }, nullptr}};
+const Table<VerifyRow> terminal_columns = {
+    {"", &VerifyRow::problem, {"problem"}},       {"", &VerifyRow::quantity, {"quantity"}},
+    {"", &VerifyRow::element, {"element"}},       {"", &VerifyRow::mesh, {"mesh"}},
+    {"", accepted, {"accepted", "{}"}},           {"", headline, {"ours", "{}"}},
+    {"", &VerifyRow::limit, {"limit", "{:.5g}"}}, {"", &VerifyRow::order, {"order", "{:.2f}"}},
+    {"", &VerifyRow::outcome, {"outcome"}}};
 
 }  // namespace
 
@@ -191,29 +165,13 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
       head.small ? " --small" : "", head.wall_time, head.machine.cpu, head.machine.cores,
       head.machine.backend, counted(head.machine.threads, "thread"), compiler(), version(),
       git_revision(), head.status);
-  std::string names = "|", rule = "|";
-  for (const Column& column : columns) names += fmt::format(" {} |", column.name), rule += "---|";
-  text += names + "\n" + rule + "\n";
-  for (const VerifyRow& row : result.rows) {
-    text += "|";
-    for (const Column& column : columns) text += " " + column.markdown(row) + " |";
-    text += "\n";
-  }
-  return text;
+  return text + markdown_columns.markdown(result.rows);
 }
 
 std::string verify_text(const VerifyResult& result, const std::string& folder) {
-  std::vector<std::vector<std::string>> table(1);
-  for (const Column& column : columns)
-    if (column.text) table[0].emplace_back(column.name);
-  for (const VerifyRow& row : result.rows) {
-    table.emplace_back();
-    for (const Column& column : columns)
-      if (column.text) table.back().push_back(column.text(row));
-  }
   const auto wrong = std::ranges::count_if(
       result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
-  return text_table(table, "<<<<>>>><") +
+  return terminal_columns.text(result.rows) +
          fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
                      counted(static_cast<long>(result.rows.size()), "row"), wrong, folder);
 }

@@ -20,9 +20,6 @@ std::string verify_json(const VerifyHead& head, const VerifyResult& result);
 /// Returns the contents of verify.csv: a line per row and mesh.
 std::string verify_csv(const VerifyResult& result);
 
-/// Returns the name of a criterion: "finest", "limit" ...
-std::string judged_name(Judged judged);
-
 /// Returns the contents of verify.md: a table of all data, and the conditions it was made under.
 std::string verify_markdown(const VerifyHead& head, const VerifyResult& result);
 

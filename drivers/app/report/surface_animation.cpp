@@ -8,32 +8,13 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/report/surface_animation.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/base64.hpp>
 
 namespace plica::app {
 
 using Json = nlohmann::ordered_json;
 
-std::string base64(const void* data, std::size_t size) {
-  constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  std::string text;
-  text.reserve((size + 2) / 3 * 4);
-  for (std::size_t at = 0; at < size; at += 3) {
-    const std::size_t count = std::min<std::size_t>(3, size - at);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[at + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 namespace {
-
-template <class T>
-std::string values_in_base64(const std::vector<T>& values) {
-  return base64(values.data(), values.size() * sizeof(T));
-}
 
 struct Range {
   float low = 0, high = 0;
@@ -61,7 +42,7 @@ std::string quantised(const std::vector<std::vector<float>>& frames,
       const double part = high > low ? (double{frame[i]} - low) / (double{high} - low) : 0.0;
       values.push_back(static_cast<std::uint16_t>(std::lround(65535 * part)));
     }
-  return values_in_base64(values);
+  return base64(values);
 }
 
 std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vector<Point>& now) {
@@ -197,8 +178,8 @@ Json SurfaceAnimation::json() const {
   Json json = {{"level", level_ < 0 ? Json() : Json(level_)},
                {"vertices", rest_.size()},
                {"held", held()},
-               {"rest", values_in_base64(rest)},
-               {"triangles", values_in_base64(corners)},
+               {"rest", base64(rest)},
+               {"triangles", base64(corners)},
                {"low", {ranges[0].low, ranges[1].low, ranges[2].low}},
                {"high", {ranges[0].high, ranges[1].high, ranges[2].high}},
                {"motion", quantised(motion_, ranges)},

@@ -45,7 +45,4 @@ class SurfaceAnimation {
   std::map<std::string, Field> fields_;
 };
 
-/// Returns the bytes in base64 (RFC 4648).
-std::string base64(const void* data, std::size_t size);
-
 }  // namespace plica::app

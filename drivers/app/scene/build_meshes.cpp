@@ -9,6 +9,7 @@
 #include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/close_slits.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/generators.hpp>
@@ -67,6 +68,25 @@ std::string size_text(const TetMesh& mesh, bool of_file) {
   return text;
 }
 
+// Says that a region may be the air around an organ: segmentations number it 0
+void add_background(const TetMesh& mesh, const MeshReport& report, Sentences& sentences) {
+  const auto& tags = report.groups.region_tags;
+  const auto zero = std::ranges::find(tags, 0);
+  if (zero == tags.end() || tags.size() < 2 || tags.size() != mesh.region_names.size()) return;
+  const auto region = static_cast<int>(zero - tags.begin());
+  double inside = 0, all = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto corners = corners_of(mesh, static_cast<int>(t));
+    const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
+    all += volume, inside += mesh.region[t] == region ? volume : 0;
+  }
+  const std::string& name = mesh.region_names[static_cast<std::size_t>(region)];
+  sentences.add(inside > all / 2,
+                fmt::format("the region {} has {:.0f} % of the volume; is it the air around the "
+                            "body? Then leave_out: [{}]",
+                            name, 100 * inside / all, name));
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report) {
@@ -85,6 +105,12 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
   sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
   for (const std::string& section : report.skipped_sections)
     sentences.add(true, "the section " + section + " is not read");
+  sentences.add(report.split, "second-order tetrahedron",
+                "split in eight by the nodes on the edges");
+  for (const auto& [region, count] : report.left_out)
+    sentences.add(count, "tetrahedron", "of the region " + region + " left out");
+  for (const std::string& note : report.notes) sentences.add(true, note);
+  add_background(mesh, report, sentences);
   return sentences.take();
 }
 
@@ -104,6 +130,8 @@ std::vector<std::string> surface_warnings(const SurfaceReport& report) {
   sentences.add(report.parts > 1,
                 fmt::format("the surface has {} parts that share no vertex", report.parts));
   sentences.add(report.turned, "the surface was inside out: all triangles turned");
+  sentences.add(report.welded, "point", "on open edges welded to another one at the same place");
+  for (const std::string& note : report.notes) sentences.add(true, note);
   return sentences.take();
 }
 
@@ -173,8 +201,10 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const SourceLocation&
                   Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
   MeshReport report;
-  const Flaws flaws = recipe.repair ? Flaws::kept : Flaws::refused;
-  TetMesh mesh = placed(where, [&] { return read_mesh(file, &report, flaws); });
+  const ReadOptions options = {recipe.repair ? Flaws::kept : Flaws::refused, recipe.regions,
+                               recipe.leave_out,
+                               recipe.order == "linear" ? SecondOrder::linear : SecondOrder::split};
+  TetMesh mesh = placed(where, [&] { return read_mesh(file, &report, options); });
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
   if (recipe.merge_duplicates) {
     MergedMesh merged =
@@ -200,7 +230,7 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const SourceLocation&
 TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
-  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
+  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report, recipe.weld); });
   for (Point& vertex : surface.vertices) vertex *= recipe.scale;
   warn(scene, file, surface_warnings(report));
   return surface;
@@ -210,7 +240,7 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Sourc
 TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene,
                                const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.surface, scene, where);
-  auto read = placed(where, [&] { return read_any(file); });
+  auto read = placed(where, [&] { return read_any(file, recipe.weld); });
   TriangleSurface surface;
   if (const auto* mesh = std::get_if<ReadMesh>(&read)) {
     warn(scene, file, mesh_warnings(mesh->mesh, mesh->report));
@@ -270,7 +300,7 @@ TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest,
 TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
-  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
+  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report, recipe.weld); });
   const double thickness = recipe.options.thickness;
   if (thickness == 0 && report.open_edges > 0) {
     const double cell = distance_cell(surface, recipe.options.cells);

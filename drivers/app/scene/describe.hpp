@@ -13,6 +13,7 @@ using namespace keys;
 
 std::vector<Choice> frame_formats();  ///< file formats of frames
 std::vector<Choice> precisions();     ///< float and double
+std::vector<Choice> second_orders();  ///< treatments of second-order tetrahedra
 
 /// Number of threads; the maximum is what Kokkos allows with OpenMP.
 inline constexpr Count thread_count{1, 512};
@@ -33,10 +34,15 @@ struct LevelChoice {
 
 /// Kind of a value: an optional struct. true: the struct with its defaults; false: none; a map: the
 /// struct's values.
-struct Switch {};
+struct Switch {
+  static constexpr const char* words = "true, false, or a map";
+  static constexpr bool takes_optional = true;
+};
 
 /// Kind of a value: a list of maps, or one map instead. The struct has a member for each.
-struct ListOrMap {};
+struct ListOrMap {
+  static constexpr const char* words = "a list of maps, or a map";
+};
 
 /// Kind of a value: points with names.
 struct NamedPoints {
@@ -89,18 +95,20 @@ void describe(V& v, Tube& o) {
 }
 
 inline constexpr const char* scale_help = "metres per unit of that file: 0.001 for millimetres";
+inline constexpr const char* weld_help =
+    "points on open edges at most this part of the box's diagonal apart become one, as exporters "
+    "leave them at seams; 0: they stay";
 
 template <class V>
 void describe(V& v, LevelRecipe& o) {
   v.one_of();
-  v.alternative("box", o.box, Case<BoxRecipe>{}, "a box of cells");
-  v.alternative("ball", o.ball, Case<BallRecipe>{}, "a ball");
-  v.alternative("cylinder", o.cylinder, Case<CylinderRecipe>{}, "a cylinder");
-  v.alternative("blob", o.blob, Case<BlobRecipe>{},
-                "a lump like a liver, with the region inclusion");
-  v.alternative("tube", o.tube, Case<Tube>{}, "a bent pipe with a wall, like a vessel");
+  v.alternative("box", o.box, Group{}, "a box of cells");
+  v.alternative("ball", o.ball, Group{}, "a ball");
+  v.alternative("cylinder", o.cylinder, Group{}, "a cylinder");
+  v.alternative("blob", o.blob, Group{}, "a lump like a liver, with the region inclusion");
+  v.alternative("tube", o.tube, Group{}, "a bent pipe with a wall, like a vessel");
   v.alternative("file", o.file, Text{},
-                "a mesh file (.msh, .mesh, .vtk, .vtu, .ele), relative to the scene");
+                "a mesh file (.msh, .mesh, .vtk, .vtu, .ele, .inp, .feb), relative to the scene");
   v.alternative("coarsen", o.coarsen, AutoCount{fewest_points},
                 "no mesh, but a coarse space of the mesh before it, of so many points; auto: as "
                 "many spaces as it takes");
@@ -110,6 +118,13 @@ void describe(V& v, LevelRecipe& o) {
     "reported");
   v("repair", o.repair, Flag{},
     "true: duplicates merged, loose parts dropped, slivers shaped better; what changed is said");
+  v("regions", o.regions, Text{},
+    "array of that file's cells that numbers the regions, such as MaterialIds; none: no regions; "
+    "left out: the file's own groups, or an array with a usual name");
+  v("leave_out", o.leave_out, ListOf<Text>{},
+    "regions of that file, by name or number, that are no body, such as the air around a "
+    "segmented organ");
+  v("order", o.order, Name{"order", second_orders}, "of that file's second-order tetrahedra");
 }
 
 template <class V>
@@ -121,6 +136,7 @@ void describe(V& v, LatticesRecipe& o) {
              "of the cells of a lattice each, finest first; elements count for the part of them "
              "that is body");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
+  v("weld", o.weld, Quantity{plain, not_negative}, weld_help);
 }
 
 /// Targets of the key `body.levels`: a recipe for each level, or one recipe for all levels.
@@ -140,12 +156,13 @@ void describe(V& v, BallSurfaceRecipe& o) {
 template <class V>
 void describe(V& v, SurfaceRecipe& o) {
   v.one_of();
-  v.alternative("sphere", o.sphere, Case<BallSurfaceRecipe>{}, "a triangulated sphere");
+  v.alternative("sphere", o.sphere, Group{}, "a triangulated sphere");
   v.alternative("boundary", o.boundary, Flag{}, "true: the boundary of level 0");
   v.alternative("file", o.file, Text{},
                 "a surface file (.obj, .stl, .ply, .off, .vtp, .vtk, .vtu, .msh, .mesh), relative "
                 "to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
+  v("weld", o.weld, Quantity{plain, not_negative}, weld_help);
 }
 
 /// At least 0, below 0.5.
@@ -186,13 +203,16 @@ void describe(V& v, BodyRecipe& o) {
 }
 
 /// Kind of a value: a map of names to the keys of `body`, and `integration`.
-struct BodyMap {};
+struct BodyMap {
+  static constexpr const char* words = "a map of maps, each as body, and with integration";
+};
 
 template <class V>
 void describe(V& v, ToolRecipe& o) {
   v.required("file", o.file, Text{},
              "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh), relative to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
+  v("weld", o.weld, Quantity{plain, not_negative}, weld_help);
   v("rotation", o.rotation, Vector{angle},
     "about the file's origin: [0, 0, 30 deg] turns it by 30 degrees about z");
   v("position", o.position, Vector{length}, "where that origin is put");
@@ -205,9 +225,10 @@ void describe(V& v, ObstacleRecipe& o) {
   ObstacleShapes::for_each([&](auto shape) {
     using Shape = decltype(shape);
     if constexpr (std::is_same_v<Shape, SampledSurface>)
-      v.alternative(Shape::name, o.tool, Case<ToolRecipe>{}, Shape::summary);
+      v.alternative(Shape::name, o.tool, Group{}, Shape::summary);
     else
-      v.alternative(Shape::name, o.options.shape, Case<typename Shape::Options>{}, Shape::summary);
+      v.alternative(Shape::name, as<typename Shape::Options>(o.options.shape), Group{},
+                    Shape::summary);
   });
   describe(v, o.options);
 }

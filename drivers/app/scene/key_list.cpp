@@ -52,17 +52,9 @@ Json schema_of(const Text&) {
   return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
 }
 Json schema_of(const Name& kind) { return {{"enum", names(kind.choices())}}; }
-Json schema_of(const TissueName& kind) { return schema_of(kind.name); }
-Json schema_of(const PresetName& kind) { return schema_of(kind.name); }
-
-Json schema_of(const NamePerLevel& kind) {
-  const Json one = schema_of(kind.name);
-  return any_of({one, list_of(one)});
-}
-
-Json schema_of(const AutoCountPerLevel&) {
-  const Json one = schema_of(AutoCount{});
-  return any_of({one, list_of(one)});
+template <auto Member>
+Json schema_of(const NameOfAll<Member>& kind) {
+  return schema_of(kind.name);
 }
 
 Json schema_of(const Entry& kind) { return schema_of(kind.quantity); }
@@ -89,11 +81,6 @@ Json schema_of(const Shares& kind) {
   return any_of({schema_of(kind.name), list_of(schema_of(Shares::share))});
 }
 
-template <auto Member, class Kind>
-Json schema_of(const As<Member, Kind>& as) {
-  return schema_of(as.kind);
-}
-
 template <class Kind>
 Json schema_of(const ListOf<Kind>& kind) {
   const Json one = schema_of(kind.kind);
@@ -107,7 +94,10 @@ class Catalogue {
 
   template <class T, class Kind>
   void operator()(const char* key, T&& member, const Kind& kind, const char* help) {
-    add(key, member, kind, help, default_of(kind, member));
+    std::string standard;
+    if constexpr (requires { kind.to_text(*held(kind, member)); })
+      if (auto* value = held(kind, member)) standard = kind.to_text(*value);
+    add(key, member, kind, help, standard, standard.empty() ? "" : "; default " + standard);
   }
   template <class T, class Kind>
   void required(const char* key, T&& member, const Kind& kind, const char* help) {
@@ -117,9 +107,9 @@ class Catalogue {
   void one_of() { choices_.push_back({"one of these", Json::array()}); }
   void at_most_one() { choices_.push_back({"at most one of these", Json::array()}); }
   template <class T, class Kind>
-  void alternative(const char* key, T& target, const Kind& kind, const char* help) {
+  void alternative(const char* key, T&& member, const Kind& kind, const char* help) {
     choices_.back().keys.push_back({{"required", {key}}});
-    add(key, target, kind, help, choices_.back().words);
+    add(key, member, kind, help, choices_.back().words);
   }
 
   Json schema() const {
@@ -135,50 +125,19 @@ class Catalogue {
   }
 
  private:
-  template <class Kind, class T>
-  static std::string default_of(const Kind& kind, T& member) {
-    if constexpr (requires { kind.to_text(member); })
-      return kind.to_text(member);
-    else if constexpr (requires { kind.to_text(*member); })
-      return member ? kind.to_text(*member) : "";
-    else
-      return "";
-  }
-
   template <class T, class Kind>
   void add(const char* key, T& member, const Kind& kind, const std::string& help,
-           const std::string& otherwise) {
-    const std::size_t place = keys_.size();
-    keys_.push_back({path_.empty() ? key : path_ + "." + key, {}, otherwise, help});
-    std::string description = help;
+           const std::string& otherwise, const std::string& standard = {}) {
+    const std::string path = path_.empty() ? key : path_ + "." + key;
     if constexpr (requires { kind.type_text(); }) {
-      const std::string standard = default_of(kind, member);
+      keys_.push_back({path, kind.type_text(), otherwise, help});
       properties_[key] = schema_of(kind);
-      keys_[place].type_text = kind.type_text();
-      description += "\n" + kind.type_text() +
-                     (otherwise != standard || standard.empty() ? "" : "; default " + standard);
+      properties_[key]["description"] = help + "\n" + kind.type_text() + standard;
     } else {
-      keys_[place].type_text = words_of(kind);
-      properties_[key] = inside(member, kind, std::string(keys_[place].path));
+      keys_.push_back({path, kind.words, otherwise, help});
+      properties_[key] = inside(member, kind, path);
+      properties_[key]["description"] = help;
     }
-    properties_[key]["description"] = description;
-  }
-
-  static const char* words_of(const Group&) { return "a map"; }
-  static const char* words_of(const Switch&) { return "true, false, or a map"; }
-  static const char* words_of(const List&) { return "a list of maps"; }
-  static const char* words_of(const ListOrMap&) { return "a list of maps, or a map"; }
-  static const char* words_of(const Map&) { return "a map of maps"; }
-  static const char* words_of(const BodyMap&) {
-    return "a map of maps, each as body, and with integration";
-  }
-  template <class T>
-  static const char* words_of(const Case<T>&) {
-    return "a map";
-  }
-  template <auto Member>
-  static const char* words_of(const CaseList<Member>&) {
-    return "a list of maps";
   }
 
   // Returns the schema of a key that has keys below it
@@ -193,17 +152,13 @@ class Catalogue {
     T member{};
     return object(member, path);
   }
-  template <class Item>
-  Json list(const std::string& path) {
-    return list_of(object<Item>(path + "[]"));
-  }
   template <class T>
-  Json inside(T& member, const Group&, const std::string& path) {
-    return object(member, path);
-  }
-  template <class T>
-  Json inside(std::optional<T>&, const Group&, const std::string& path) {
-    return object<T>(path);
+  Json inside(T& member, const Group& kind, const std::string& path) {
+    using Value = std::remove_reference_t<decltype(made(kind, member))>;
+    if constexpr (std::is_same_v<T, Value>)
+      return object(member, path);
+    else
+      return object<Value>(path);
   }
   template <class T>
   Json inside(std::optional<T>&, const Switch&, const std::string& path) {
@@ -212,9 +167,10 @@ class Catalogue {
     return schema;
   }
   template <class T>
-  Json inside(std::vector<T>&, const List&, const std::string& path) {
-    Json schema = list<T>(path);
-    schema.erase("minItems");
+  Json inside(T& member, const List& kind, const std::string& path) {
+    using Values = std::remove_reference_t<decltype(made(kind, member))>;
+    Json schema = list_of(object<typename Values::value_type>(path + "[]"));
+    if (kind.least == 0) schema.erase("minItems");
     return schema;
   }
   template <class T>
@@ -237,14 +193,6 @@ class Catalogue {
     body["properties"]["integration"] = {{"$ref", "#/properties/integration"},
                                          {"description", body_integration_help}};
     return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", body}};
-  }
-  template <class Target, class T>
-  Json inside(Target&, const Case<T>&, const std::string& path) {
-    return object<T>(path);
-  }
-  template <class Target, auto Member>
-  Json inside(Target&, const CaseList<Member>&, const std::string& path) {
-    return list<typename CaseList<Member>::Value::value_type>(path);
   }
 
   struct Alternatives {

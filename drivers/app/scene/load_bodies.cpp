@@ -12,30 +12,23 @@ namespace plica::app {
 
 namespace {
 
-/// Visitor of a table that collects the path and value of each key.
-class KeyValues {
- public:
-  using All = std::vector<std::pair<std::string, std::string>>;
-  KeyValues(All& all, std::string path) : all_(all), path_(std::move(path)) {}
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
-  template <class T, class Kind>
-  void operator()(const char* key, T&& member, const Kind& kind, const char*) {
-    const std::string path = path_ + "." + key;
+/// Collects the path and the value of each key of a struct.
+template <class T>
+void collect_values(KeyValues& all, const std::string& path, T& options) {
+  for_each_key(options, [&](const char* key, auto& member, const auto& kind, const char*) {
+    const std::string inside = path + "." + key;
     if constexpr (requires { kind.to_text(member); }) {
       std::string value = kind.to_text(member);
-      if constexpr (std::is_same_v<Kind, Shares>)
+      if constexpr (requires { member.shares; })
         for (const double share : member.shares) value += fmt::format(" {:g}", share);
-      all_.emplace_back(path, value);
+      all.emplace_back(inside, value);
     } else {
-      KeyValues deeper(all_, path);
-      describe(deeper, member);
+      collect_values(all, inside, member);
     }
-  }
-
- private:
-  All& all_;
-  std::string path_;
-};
+  });
+}
 
 /// Replaces values of the map `below` by those of `above`, key by key.
 void put_over(Tree& below, const Tree& above) {
@@ -64,11 +57,10 @@ Tree with_integration(Tree tree, const Tree& integration) {
   return tree;
 }
 
-KeyValues::All integration_values(const Tree& tree) {
+KeyValues integration_values(const Tree& tree) {
   IntegrationOptions options = read_scene(tree).problem.integration;
-  KeyValues::All all;
-  KeyValues walk(all, "integration");
-  describe(walk, options);
+  KeyValues all;
+  collect_values(all, "integration", options);
   return all;
 }
 
@@ -83,10 +75,9 @@ Tree shared_integration(const Tree& tree) {
   if (bodies.empty()) return tree;
   read_scene(tree);  // throws if one of them is wrong by itself
   Tree shared = with_integration(tree, *bodies.front()->find("integration"));
-  const KeyValues::All first = integration_values(shared);
+  const KeyValues first = integration_values(shared);
   for (const Tree* body : bodies) {
-    const KeyValues::All here =
-        integration_values(with_integration(tree, *body->find("integration")));
+    const KeyValues here = integration_values(with_integration(tree, *body->find("integration")));
     const auto [one, other] = std::ranges::mismatch(here, first);
     if (one == here.end()) continue;
     const std::string path = fmt::format("bodies.{}.{}", body->key, one->first);
@@ -132,9 +123,14 @@ std::string renamed(std::string message, const std::string& name) {
   return message;
 }
 
-Scene load_one(const Tree& tree, const std::string& name) {
+/// Loads the scene of one body. Obstacles, which all of them share, are built with the `first`.
+Scene load_one(const Tree& tree, const std::string& name, bool first) {
   try {
-    return load_body(tree);
+    Scene one = read_scene(tree);
+    check_scene(one, tree);
+    if (!first) one.obstacles.clear();
+    build_meshes(one, tree);
+    return one;
   } catch (const InputError& error) {
     throw InputError(renamed(error.what(), name));
   }
@@ -181,7 +177,7 @@ Scene load_bodies(const Tree& tree) {
   std::vector<std::size_t> vertices(levels, 0), tets(levels, 0);
   std::vector<std::pair<std::string, Body>> bodies;
   for (const Tree& item : tree.find("bodies")->items) {
-    Scene one = load_one(scene_of_one(tree, item, levels), item.key);
+    Scene one = load_one(scene_of_one(tree, item, levels), item.key, bodies.empty());
     if (all.levels.size() < one.levels.size()) all.levels = one.levels;
     if (!all.surface) all.surface = one.surface;
     for (std::string& warning : one.warnings) all.warnings.push_back(renamed(warning, item.key));
@@ -191,7 +187,7 @@ Scene load_bodies(const Tree& tree) {
       vertices[i] += mesh.vertices.size(), tets[i] += mesh.tets.size();
     }
     // obstacles of `one` have triangulated surfaces, those of the recipe have none
-    all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);
+    if (bodies.empty()) all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);
     bodies.emplace_back(item.key, std::move(one.problem.body));
   }
   try {

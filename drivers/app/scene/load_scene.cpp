@@ -19,72 +19,9 @@ namespace plica::app {
 std::vector<Choice> frame_formats() { return {{"vtu", "VTK's XML format for unstructured grids"}}; }
 
 std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 bits"}}; }
-
-namespace {
-
-/// Turns the levels without a mesh, which come after the meshes, into the body's coarse spaces.
-void take_coarse_spaces(Scene& scene, const Tree& tree) {
-  const auto first = std::ranges::find_if(
-      scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
-  const auto meshes = first - scene.levels.begin();
-  if (first == scene.levels.end()) return;
-  const auto refuse = [&](std::ptrdiff_t level, const std::string& why) {
-    const std::string path = fmt::format("body.levels.{}", level);
-    throw InputError(path + ": " + why, place_of(tree, path));
-  };
-  if (meshes == 0)
-    refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
-  std::vector<int>& sizes = scene.problem.body.coarsen.emplace();
-  for (auto i = meshes; i < std::ssize(scene.levels); ++i) {
-    const std::optional<int>& points = scene.levels[static_cast<std::size_t>(i)].coarsen;
-    if (!points) refuse(i, "a mesh stands after coarsen; expected meshes first");
-    if (*points == 0 && std::ssize(scene.levels) > meshes + 1)
-      refuse(i,
-             "coarsen is auto, which makes as many spaces as it takes; expected it alone, or "
-             "numbers of points");
-    if (*points > 0) sizes.push_back(*points);
-  }
-  scene.levels.erase(first, scene.levels.end());
-}
-
-/// Adds a level for each lattice.
-void take_lattices(Scene& scene, const Tree& tree) {
-  if (!scene.lattices) return;
-  const std::vector<double>& sizes = scene.lattices->sizes;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const std::string path = fmt::format("body.levels.sizes.{}", i);
-    if (i > 0 && !(sizes[i] > sizes[i - 1]))
-      throw InputError(
-          fmt::format(
-              "{} is {:g} m after {:g} m; expected larger cells from level to level, finest first",
-              path, sizes[i], sizes[i - 1]),
-          place_of(tree, path));
-    scene.levels.emplace_back().lattice = sizes[i];
-  }
-  if (scene.jitter > 0)
-    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none",
-                     place_of(tree, "body.jitter"));
-}
-
-}  // namespace
-
-Scene read_scene(const Tree& tree) {
-  Scene scene;
-  scene.file = tree.where.file;
-  scene.name = valid_utf8(std::filesystem::path(scene.file).stem().string());
-  Reader reader({tree, ""});
-  describe(reader, scene);
-  reader.finish();
-  take_coarse_spaces(scene, tree);
-  take_lattices(scene, tree);
-  for (const ObstacleRecipe& recipe : scene.obstacles) {
-    ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
-    if (recipe.tool) made.shape = recipe.tool->options;
-  }
-  if (!scene.obstacles.empty() && !scene.surface && !scene.lattices && scene.bodies.empty())
-    scene.surface.emplace().boundary = true;
-  scene.source = tree;
-  return scene;
+std::vector<Choice> second_orders() {
+  return {{"split", "eight linear ones each, by the nodes on the edges"},
+          {"linear", "one linear one each, by the corners alone"}};
 }
 
 InputError located(const InputError& error, const Tree& source) {
@@ -106,8 +43,73 @@ void with_places(const Tree& tree, const Check& check) {
   }
 }
 
-void only_of_files(const std::string& file, bool given, const std::string& path, const Tree& tree) {
-  if (file.empty() && given) throw InputError(path + ": only a file has one", place_of(tree, path));
+/// Turns the levels without a mesh, which come after the meshes, into the body's coarse spaces.
+void take_coarse_spaces(Scene& scene) {
+  const auto first = std::ranges::find_if(
+      scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
+  const auto meshes = first - scene.levels.begin();
+  if (first == scene.levels.end()) return;
+  const auto refuse = [&](std::ptrdiff_t level, const std::string& why) {
+    throw InputError(fmt::format("body.levels.{}: {}", level, why));
+  };
+  if (meshes == 0)
+    refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
+  std::vector<int>& sizes = scene.problem.body.coarsen.emplace();
+  for (auto i = meshes; i < std::ssize(scene.levels); ++i) {
+    const std::optional<int>& points = scene.levels[static_cast<std::size_t>(i)].coarsen;
+    if (!points) refuse(i, "a mesh stands after coarsen; expected meshes first");
+    if (*points == 0 && std::ssize(scene.levels) > meshes + 1)
+      refuse(i,
+             "coarsen is auto, which makes as many spaces as it takes; expected it alone, or "
+             "numbers of points");
+    if (*points > 0) sizes.push_back(*points);
+  }
+  scene.levels.erase(first, scene.levels.end());
+}
+
+/// Adds a level for each lattice.
+void take_lattices(Scene& scene) {
+  if (!scene.lattices) return;
+  const std::vector<double>& sizes = scene.lattices->sizes;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (i > 0 && !(sizes[i] > sizes[i - 1]))
+      throw InputError(
+          fmt::format("body.levels.sizes.{} is {:g} m after {:g} m; expected larger "
+                      "cells from level to level, finest first",
+                      i, sizes[i], sizes[i - 1]));
+    scene.levels.emplace_back().lattice = sizes[i];
+  }
+  if (scene.jitter > 0)
+    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none");
+}
+
+}  // namespace
+
+Scene read_scene(const Tree& tree) {
+  Scene scene;
+  scene.file = tree.where.file;
+  scene.name = valid_utf8(std::filesystem::path(scene.file).stem().string());
+  Reader reader({tree, ""});
+  describe(reader, scene);
+  reader.finish();
+  with_places(tree, [&] {
+    take_coarse_spaces(scene);
+    take_lattices(scene);
+  });
+  for (const ObstacleRecipe& recipe : scene.obstacles) {
+    ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
+    if (recipe.tool) made.shape = recipe.tool->options;
+  }
+  if (!scene.obstacles.empty() && !scene.surface && !scene.lattices && scene.bodies.empty())
+    scene.surface.emplace().boundary = true;
+  scene.source = tree;
+  return scene;
+}
+
+namespace {
+
+void only_of_files(const std::string& file, bool given, const std::string& path) {
+  if (file.empty() && given) throw InputError(path + ": only a file has one");
 }
 
 // Throws InputError for young_modulus or poisson_ratio if the law does not use it. Every body has
@@ -130,22 +132,23 @@ void check_given(const Scene& scene, const Tree& tree) {
     if (regions) check(regions->find(name), "body.regions." + name);
 }
 
-void check_body(const Scene& scene, const Tree& tree) {
-  check_given(scene, tree);
+void check_body(const Scene& scene) {
   for (std::size_t i = 0; i < scene.levels.size(); ++i) {
     const LevelRecipe& level = scene.levels[i];
     const std::string path = fmt::format("body.levels.{}", i);
-    only_of_files(level.file, level.scale != 1, path + ".scale", tree);
-    only_of_files(level.file, level.merge_duplicates.has_value(), path + ".merge_duplicates", tree);
-    only_of_files(level.file, level.repair, path + ".repair", tree);
+    only_of_files(level.file, level.scale != 1, path + ".scale");
+    only_of_files(level.file, level.merge_duplicates.has_value(), path + ".merge_duplicates");
+    only_of_files(level.file, level.repair, path + ".repair");
+    only_of_files(level.file, !level.regions.empty(), path + ".regions");
+    only_of_files(level.file, !level.leave_out.empty(), path + ".leave_out");
+    only_of_files(level.file, level.order != LevelRecipe{}.order, path + ".order");
   }
   if (!scene.surface) return;
   const SurfaceRecipe& surface = *scene.surface;
-  only_of_files(surface.file, surface.scale != 1, "body.surface.scale", tree);
+  only_of_files(surface.file, surface.scale != 1, "body.surface.scale");
   if (!surface.sphere && !surface.boundary && surface.file.empty())
     throw InputError(
-        "body.surface.boundary: expected true, got 'false'; leave body.surface out to have none",
-        place_of(tree, "body.surface.boundary"));
+        "body.surface.boundary: expected true, got 'false'; leave body.surface out to have none");
 }
 
 // Returns the memory that the set-up of a generated level needs [bytes]. 350 bytes per tetrahedron
@@ -168,49 +171,45 @@ double generated_bytes(const SurfaceRecipe& surface) {
 }
 
 // Throws InputError if the set-up needs more memory than the machine has
-void check_memory(const Scene& scene, const Tree& tree) {
+void check_memory(const Scene& scene) {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   double bytes = 0;
   const auto add = [&](double more, const std::string& path) {
     bytes += more;
     if (bytes > memory)
-      throw InputError(
-          fmt::format(
-              "{}: a mesh this fine makes the scene take about {:.4g} GB of memory; this machine "
-              "has {:.4g} GB",
-              path, bytes / 1e9, memory / 1e9),
-          place_of(tree, path));
+      throw InputError(fmt::format(
+          "{}: a mesh this fine makes the scene take about {:.4g} GB of memory; this machine "
+          "has {:.4g} GB",
+          path, bytes / 1e9, memory / 1e9));
   };
   for (std::size_t i = 0; i < scene.levels.size(); ++i)
     add(generated_bytes(scene.levels[i]), fmt::format("body.levels.{}", i));
   if (scene.surface) add(generated_bytes(*scene.surface), "body.surface");
 }
 
-void check_output(const Scene& scene, const Tree& tree) {
+void check_output(const Scene& scene) {
   const OutputOptions& output = scene.output;
   if (output.probe_every && output.probes.empty())
-    throw InputError("output.probe_every: there are no probes; give output.probes",
-                     place_of(tree, "output.probe_every"));
+    throw InputError("output.probe_every: there are no probes; give output.probes");
   const std::string& cycle = scene.problem.integration.cycle;
   const std::size_t in_use = integrated_levels(cycle, scene.levels.size());
   for (const int level : output.volume.levels)
     if (static_cast<std::size_t>(level) >= in_use)
-      throw InputError(fmt::format("output.volume: there is no level {}: the cycle '{}' integrates "
-                                   "{} of {} in body.levels, "
-                                   "counted from 0",
-                                   level, cycle, in_use, scene.levels.size()),
-                       place_of(tree, "output.volume"));
+      throw InputError(
+          fmt::format("output.volume: there is no level {}: the cycle '{}' integrates "
+                      "{} of {} in body.levels, "
+                      "counted from 0",
+                      level, cycle, in_use, scene.levels.size()));
 }
 
-void check_duration(const Scene& scene, const Tree& tree) {
+void check_duration(const Scene& scene) {
   constexpr double rounding = 1e-9;
   const std::optional<double>& step = scene.problem.integration.macro_step;
   if (step && *step > (1 + rounding) * scene.duration)
     throw InputError(
         fmt::format("integration.macro_step is {:g} s; expected at most the duration, {:g} s",
-                    *step, scene.duration),
-        place_of(tree, "integration.macro_step"));
+                    *step, scene.duration));
 }
 
 }  // namespace
@@ -222,16 +221,24 @@ double generated_bytes(const Scene& scene) {
 }
 
 void check_scene(const Scene& scene, const Tree& tree) {
-  if (scene.bodies.empty()) {  // several bodies are checked one by one
-    check_body(scene, tree);
-    check_memory(scene, tree);
-    with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
-  }
-  check_duration(scene, tree);
-  check_output(scene, tree);
+  const bool is_one = scene.bodies.empty();  // several bodies are checked one by one
+  if (is_one) check_given(scene, tree);
+  with_places(tree, [&] {
+    if (is_one) {
+      check_body(scene);
+      check_memory(scene);
+      validate_options(scene.problem, scene.levels.size());
+    }
+    check_duration(scene);
+    check_output(scene);
+  });
 }
 
-void check_probes(Scene& scene, const Tree& tree) {
+namespace {
+
+/// Checks that the probes lie in level 0. Throws InputError for a probe that is outside by more
+/// than an edge. Adds a warning for one that is closer: the nearest point of the body is used.
+void check_probes(Scene& scene) {
   if (scene.output.probes.empty()) return;
   const TetMesh& mesh = scene.problem.body.levels.front();
   const TetLocator locator(mesh);
@@ -241,7 +248,7 @@ void check_probes(Scene& scene, const Tree& tree) {
     try {
       nearest = embed({point}, locator, Outside::clamp);
     } catch (const InputError& error) {
-      throw InputError(path + ": " + error.what(), place_of(tree, path));
+      throw InputError(path + ": " + error.what());
     }
     if (nearest.misses == 0) continue;
     const double distance = locator.locate(point).distance,
@@ -251,19 +258,12 @@ void check_probes(Scene& scene, const Tree& tree) {
                     point.y(), point.z(), distance);
     if (edges > 1) {
       const Box box = bounding_box(mesh.vertices);
-      throw InputError(
-          fmt::format("{}, which lies in [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m", outside,
-                      box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()),
-          place_of(tree, path));
+      throw InputError(fmt::format("{}, which lies in [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m",
+                                   outside, box.min.x(), box.min.y(), box.min.z(), box.max.x(),
+                                   box.max.y(), box.max.z()));
     }
     scene.warnings.push_back(scene.file + ": " + outside + "; the nearest point of it is watched");
   }
-}
-
-Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  Tree tree = read_tree(file);
-  for (const Override& given : overrides) set_value(tree, given.assignment, given.label);
-  return load_scene(tree);
 }
 
 Scene load_body(const Tree& tree) {
@@ -273,17 +273,27 @@ Scene load_body(const Tree& tree) {
   return scene;
 }
 
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Tree tree = read_tree(file);
+  for (const Override& given : overrides) set_value(tree, given.assignment, given.label);
+  return load_scene(tree);
+}
+
 Scene load_scene(const Tree& given) {
   Tree present = given;
   use_present_keys(present);
   const Tree tree = shared_integration(present);
   Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);
-  with_places(tree, [&] { validate(scene.problem); });
+  with_places(tree, [&] {
+    scene.bodies.empty() ? validate_meshes(scene.problem) : validate(scene.problem);
+  });
   for (std::string& warning : warnings_of_older_keys(present))
     scene.warnings.push_back(std::move(warning));
   for (const std::string& doubt : problem_warnings(scene.problem))
     scene.warnings.push_back(scene.file + ": " + doubt);
-  check_probes(scene, tree);
+  with_places(tree, [&] { check_probes(scene); });
   return scene;
 }
 

@@ -40,13 +40,6 @@ TetMesh finer_mesh(const Scene& scene);
 /// Builds the meshes and the embedded surface. Checks the names of groups and regions against them.
 void build_meshes(Scene& scene, const Tree& tree);
 
-/// Loads a scene with one `body`: read_scene(), check_scene() and build_meshes(). The caller
-/// validates the whole problem after that.
-Scene load_body(const Tree& tree);
-/// Checks that the probes lie in level 0. Throws InputError for a probe that is outside by more
-/// than an edge. Adds a warning for one that is closer: the nearest point of the body is used.
-void check_probes(Scene& scene, const Tree& tree);
-
 /// Returns warnings about a mesh that was read: what was repaired, left out, or looks wrong. One
 /// sentence each.
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);

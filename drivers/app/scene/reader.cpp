@@ -30,6 +30,11 @@ const std::vector<Tree>& Value::list(const std::string& expected, std::size_t si
   return tree.items;
 }
 
+const std::vector<Tree>& Value::map() const {
+  if (tree.kind != Tree::Kind::map) mismatch("a map of keys");
+  return tree.items;
+}
+
 Value Value::item(std::size_t index) const {
   return {tree.items[index], fmt::format("{}.{}", path, index)};
 }
@@ -48,18 +53,6 @@ void read_quantity(const Value& value, const Quantity& kind, double& target,
     value.mismatch(expected, name_of(*measured.dimension));
   if (!kind.range.contains(measured.value)) value.mismatch(expected);
   target = measured.value;
-}
-
-template <class T, class ReadOne>
-void read_per_level(const Value& value, const std::string& expected, std::vector<T>& target,
-                    const ReadOne& read_one) {
-  if (value.tree.kind == Tree::Kind::scalar) {
-    target.resize(1);
-    return read_one(value, target[0]);
-  }
-  target.resize(value.list(expected).size());
-  if (target.empty()) value.mismatch(expected);
-  for (std::size_t i = 0; i < target.size(); ++i) read_one(value.item(i), target[i]);
 }
 
 // Returns the paths where a misplaced key belongs: "body.material or body.regions.<name>". Empty:
@@ -149,16 +142,6 @@ void read(const Value& value, const PresetName& kind, Problem& target) {
   apply_preset(name, target);
 }
 
-void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target) {
-  read_per_level(value, kind.type_text(), target,
-                 [&](const Value& one, std::string& name) { read(one, kind.name, name); });
-}
-
-void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target) {
-  read_per_level(value, kind.type_text(), target,
-                 [](const Value& one, int& count) { read(one, AutoCount{}, count); });
-}
-
 void read(const Value& value, const Shares& kind, const Shares::Target& target) {
   if (value.tree.kind != Tree::Kind::list) return read(value, kind.name, target.rule);
   target.rule = "custom";
@@ -219,11 +202,7 @@ void read(const Value& value, const NamedPoints& kind, std::map<std::string, Poi
   }
 }
 
-Reader::Reader(const Value& map) : map_(map) { check_map(map); }
-
-void Reader::check_map(const Value& value) {
-  if (value.tree.kind != Tree::Kind::map) value.mismatch("a map of keys");
-}
+Reader::Reader(const Value& map) : map_(map) { map.map(); }
 
 const Tree* Reader::take(const char* key, bool is_required) {
   known_.emplace_back(key);

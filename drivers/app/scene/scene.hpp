@@ -8,6 +8,7 @@
 #include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/files/read_options.hpp>
 #include <plica/meshes/organs.hpp>
 #include <plica/meshes/reordering.hpp>
 #include <string>
@@ -49,9 +50,10 @@ struct BlobRecipe {
 
 /// Lattices over a closed surface, see weighted_lattice().
 struct LatticesRecipe {
-  std::string surface;        ///< file of the surface, relative to the scene
-  double scale = 1;           ///< metres per unit of the file
-  std::vector<double> sizes;  ///< cell size of each lattice, finest first [m]
+  std::string surface;          ///< file of the surface, relative to the scene
+  double scale = 1;             ///< metres per unit of the file
+  std::vector<double> sizes;    ///< cell size of each lattice, finest first [m]
+  double weld = weld_distance;  ///< see weld_open_edges(), as a part of the box's diagonal
 };
 
 /// Source of a level: a generated mesh, a file, a lattice, or a coarse space of the mesh before it.
@@ -69,7 +71,10 @@ struct LevelRecipe {
   double scale = 1;  ///< metres per unit of the file
   /// distance up to which vertices of the file become one; none: they stay [m]
   std::optional<double> merge_duplicates;
-  bool repair = false;  ///< true: the file's mesh is repaired, see repair_mesh()
+  bool repair = false;                 ///< true: the file's mesh is repaired, see repair_mesh()
+  std::string regions;                 ///< array of cells that numbers the regions; see ReadOptions
+  std::vector<std::string> leave_out;  ///< regions of the file that are left out
+  std::string order = "split";         ///< second-order tetrahedra, one of second_orders()
 };
 
 /// Triangulated sphere, see sphere_surface().
@@ -82,9 +87,10 @@ struct BallSurfaceRecipe {
 /// Source of the embedded surface: a sphere, the boundary of level 0, or a file.
 struct SurfaceRecipe {
   std::optional<BallSurfaceRecipe> sphere;
-  bool boundary = false;  ///< true: the boundary of level 0
-  std::string file;       ///< surface file, relative to the scene
-  double scale = 1;       ///< metres per unit of the file
+  bool boundary = false;        ///< true: the boundary of level 0
+  std::string file;             ///< surface file, relative to the scene
+  double scale = 1;             ///< metres per unit of the file
+  double weld = weld_distance;  ///< see weld_open_edges(), as a part of the box's diagonal
 };
 
 /// Rigid obstacle from a file of triangles: scaled, turned about the file's origin, then moved.
@@ -93,6 +99,7 @@ struct ToolRecipe {
   double scale = 1;                ///< metres per unit of the file
   Point rotation = Point::Zero();  ///< rotation vector: along the axis, length is the angle [rad]
   Point position = Point::Zero();  ///< position of the file's origin [m]
+  double weld = weld_distance;     ///< see weld_open_edges(), as a part of the box's diagonal
   SurfaceOptions options;          ///< options of the obstacle; its surface comes from the file
 };
 

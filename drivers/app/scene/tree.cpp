@@ -100,24 +100,29 @@ class Documents final : public YAML::EventHandler {
   Mark start_;
 };
 
+// Returns the entry of a list by its number, or that of a map by its key; null: there is none
+const Tree* entry_of(const Tree& tree, const std::string& part) {
+  if (tree.kind != Tree::Kind::list) return tree.find(part);
+  std::size_t index = 0;
+  const char* end = part.data() + part.size();
+  const auto [rest, error] = std::from_chars(part.data(), end, index);
+  const bool is_entry = error == std::errc{} && rest == end && index < tree.items.size();
+  return is_entry ? &tree.items[index] : nullptr;
+}
+
 // Returns the value that one part of a path leads to. The part is the number of an item of a list,
 // or the key of a map; a missing key is made
 Tree& stepped(Tree& tree, const std::string& part, const SourceLocation& where) {
-  if (tree.kind == Tree::Kind::list) {
-    std::size_t index = 0;
-    const auto [rest, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (error != std::errc{} || rest != part.data() + part.size() || index >= tree.items.size())
-      throw InputError("'" + part + "' is no entry of this list, which has " +
-                           std::to_string(tree.items.size()) + ", counted from 0",
-                       where);
-    return tree.items[index];
-  }
+  if (const Tree* entry = entry_of(tree, part))
+    return tree.items[static_cast<std::size_t>(entry - tree.items.data())];
+  if (tree.kind == Tree::Kind::list)
+    throw InputError("'" + part + "' is no entry of this list, which has " +
+                         std::to_string(tree.items.size()) + ", counted from 0",
+                     where);
   if (tree.kind == Tree::Kind::scalar)
     throw InputError(
         "cannot set '" + part + "' inside " + tree.to_text() + ", which is a single value", where);
   tree.kind = Tree::Kind::map;
-  for (Tree& item : tree.items)
-    if (item.key == part) return item;
   Tree& made = tree.items.emplace_back();
   made.key = part;
   made.where = made.key_where = where;
@@ -213,12 +218,7 @@ SourceLocation place_of(const Tree& root, std::string_view path) {
   const Tree* tree = &root;
   std::istringstream parts{std::string(path)};
   for (std::string part; std::getline(parts, part, '.');) {
-    const Tree* next = tree->find(part);
-    std::size_t index = 0;
-    if (tree->kind == Tree::Kind::list &&
-        std::from_chars(part.data(), part.data() + part.size(), index).ec == std::errc{} &&
-        index < tree->items.size())
-      next = &tree->items[index];
+    const Tree* next = entry_of(*tree, part);
     if (next == nullptr) break;
     tree = next;
   }
@@ -263,35 +263,22 @@ std::string below(const std::string& path, const std::string& key) {
 }
 
 std::string difference(const Tree& before, const Tree& now, const std::string& path,
-                       const std::string& but_for);
-
-std::string map_difference(const Tree& before, const Tree& now, const std::string& path,
-                           const std::string& but_for) {
-  for (const Tree& item : before.items) {
-    if (item.key == but_for) continue;
-    const Tree* other = now.find(item.key);
-    if (other == nullptr)
-      return below(path, item.key) + ": " + item.to_text() + " is not there any more";
-    if (std::string found = difference(item, *other, below(path, item.key), {}); !found.empty())
-      return found;
+                       const std::string& but_for) {
+  const bool map = before.kind == Tree::Kind::map;
+  if (before.kind != now.kind || before.text != now.text ||
+      (!map && before.items.size() != now.items.size()))
+    return path + ": " + before.to_text() + " became " + now.to_text();
+  for (std::size_t i = 0; i < before.items.size(); ++i) {
+    const Tree& item = before.items[i];
+    if (map && item.key == but_for) continue;
+    const std::string inside = below(path, map ? item.key : std::to_string(i));
+    const Tree* other = map ? now.find(item.key) : &now.items[i];
+    if (other == nullptr) return inside + ": " + item.to_text() + " is not there any more";
+    if (std::string found = difference(item, *other, inside, {}); !found.empty()) return found;
   }
   for (const Tree& item : now.items)
-    if (item.key != but_for && before.find(item.key) == nullptr)
+    if (map && item.key != but_for && before.find(item.key) == nullptr)
       return below(path, item.key) + ": is new";
-  return {};
-}
-
-std::string difference(const Tree& before, const Tree& now, const std::string& path,
-                       const std::string& but_for) {
-  if (before.kind != now.kind || before.text != now.text ||
-      (before.kind == Tree::Kind::list && before.items.size() != now.items.size()))
-    return path + ": " + before.to_text() + " became " + now.to_text();
-  if (before.kind == Tree::Kind::map) return map_difference(before, now, path, but_for);
-  for (std::size_t i = 0; i < before.items.size(); ++i)
-    if (std::string found =
-            difference(before.items[i], now.items[i], below(path, std::to_string(i)), {});
-        !found.empty())
-      return found;
   return {};
 }
 

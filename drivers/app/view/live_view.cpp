@@ -10,13 +10,13 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/report/page.hpp>
-#include <plica/drivers/app/report/surface_animation.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
 #include <plica/drivers/app/view/user_forces.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/base64.hpp>
 #include <set>
 #include <thread>
 
@@ -34,10 +34,6 @@ constexpr double obstacle_speed = 1;  // maximum speed, in body sizes per simula
 double seconds(LiveClock::duration time) { return std::chrono::duration<double>(time).count(); }
 
 LiveJson three_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-std::string in_base64(const std::vector<float>& values) {
-  return base64(values.data(), values.size() * sizeof(float));
-}
 
 /// Surface of the body that the page shows: the boundary of level 0.
 struct Skin {
@@ -90,7 +86,6 @@ class LiveView {
       if (forces_) forces_(request);
       hands_(request);
     });
-    simulation_.share_cores();
   }
   ~LiveView() { simulation_.set_external_forces(forces_); }
   LiveView(const LiveView&) = delete;
@@ -210,8 +205,8 @@ class LiveView {
         {"size", size},
         {"method", options_.method},
         {"tets", tets},
-        {"rest", in_base64(rest)},
-        {"triangles", base64(corners.data(), corners.size() * sizeof(std::uint32_t))},
+        {"rest", base64(rest)},
+        {"triangles", base64(corners)},
         {"obstacles", obstacles_json(problem.contact)}};
     return filled_page(live_files(), scene_.name,
                        data.dump(-1, ' ', false, LiveJson::error_handler_t::replace));
@@ -229,8 +224,8 @@ class LiveView {
                            {"moved", moved()},
                            {"wrong", words_},
                            {"colour", controls.colour},
-                           {"values", values.empty() ? LiveJson() : LiveJson(in_base64(values))},
-                           {"points", in_base64(skin_.of(simulation_.positions()))}};
+                           {"values", values.empty() ? LiveJson() : LiveJson(base64(values))},
+                           {"points", base64(skin_.of(simulation_.positions()))}};
     return data.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
   }
 

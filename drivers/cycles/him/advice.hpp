@@ -11,7 +11,7 @@
 #include <vector>
 
 // Advice on the cycle him for a scene with obstacles. The numbers were measured, see
-// cmake/docs/him.md.
+// cmake/docs/explanation/him.md.
 namespace plica {
 
 /// Returns the largest speed of a given motion [m/s].

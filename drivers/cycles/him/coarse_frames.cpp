@@ -328,15 +328,6 @@ void CoarseFrames<B>::find_torques(const Exec& exec, const Vectors<B>& given,
   }
 }
 
-template <class B>
-std::size_t CoarseFrames<B>::bytes() const {
-  return bytes_of_views(frames_.at_rest, frames_.displacement, frames_.gradient_of[0],
-                        frames_.gradient_of[1], frames_.gradient_of[2], frames_.force_of,
-                        frames_.response, frames_.angles, frames_.stiffness, frames_.torque,
-                        frames_.force, rotation_, share_, sums_) +
-         bytes_of_rows(frames_.restriction) + bytes_of_rows(frames_.spread);
-}
-
 #define PLICA_INSTANTIATE(Real, Exec) template class CoarseFrames<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

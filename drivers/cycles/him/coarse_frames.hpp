@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/archive.hpp>
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/cycles/him/mass_spaces.hpp>
 #include <plica/kernels/him/coarse_frames.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Symbols of cmake/docs/him.md: R is rotation(), the frames. F
+// Symbols of cmake/docs/explanation/him.md: R is rotation(), the frames. F
 // is E^T g, on the finest vertices: g is force(), E is FrameShape::restriction. Pi is the product
 // of all P.
 namespace plica {
@@ -82,7 +83,11 @@ class CoarseFrames {
   /// Returns the sums of the last round: how much the force's share still changed, over itself.
   /// Empty without frames.
   FrameRound<B> last_round() const { return round(most_rounds - 1); }
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const {
+    archive.field("the axes' share of the momenta", share_);
+    archive.field("the coarsest axes", rotation_);
+    archive.owns(frames_, sums_);
+  }
 
  private:
   static constexpr int most_rounds = 6;

@@ -5,7 +5,8 @@
 #include <plica/kernels/him/momentum_of.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Symbols of cmake/docs/him.md: A is the argument A(p, v), which sets v = A p; p are the momenta.
+// Symbols of cmake/docs/explanation/him.md: A is the argument A(p, v), which sets v = A p; p are
+// the momenta.
 namespace plica {
 
 /// Solves A p = v for p by conjugate gradients preconditioned by the mass, to 1e-6 of v. Waits.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
+#include <plica/core/archive.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Symbols of cmake/docs/him.md: p are momenta. A is the inverse mass without the exact translation,
-// A' the one with it.
+// Symbols of cmake/docs/explanation/him.md: p are momenta. A is the inverse mass without the exact
+// translation, A' the one with it.
 namespace plica {
 
 /// Exact translation of a body that nothing holds, and the rigid part of its momenta.
@@ -66,7 +66,9 @@ class FreeMotion {
                                                    {v, a, static_cast<typename B::Real>(1 / t)}});
   }
 
-  std::size_t bytes() const { return rest_.span() * sizeof(typename B::Real); }
+  void name_fields(Archive<B>& archive) const {
+    archive.owns(rest_, blocks_.view(), sums_, total_, frame_);
+  }
 
  private:
   Vectors<B> rest_;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/archive.hpp>
 #include <plica/drivers/cycles/him/free_motion.hpp>
 #include <plica/drivers/cycles/him/inertia.hpp>
 
-// Symbols of cmake/docs/him.md: A is HimParts::inverse_mass, with the translation of
+// Symbols of cmake/docs/explanation/him.md: A is HimParts::inverse_mass, with the translation of
 // HimParts::free. u, v are state_, f is f_, p is HimFields::p, F is found in kick(). gamma is
 // HimParts::fit.scale.
 namespace plica {
@@ -56,9 +55,6 @@ struct HimFields {
     some.contact = {rows.of(contact.force), contact.touching},
     some.contact_answer = rows.of(contact_answer);
     return some;
-  }
-  std::size_t bytes() const {
-    return bytes_of_views(p, g, a, force_before, answer_before, contact.force, contact_answer);
   }
 };
 
@@ -186,17 +182,14 @@ class HimBody {
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1) > 0;
   }
 
-  std::size_t bytes() const {
-    return parts_.inverse_mass->bytes() + parts_.fitter->bytes() +
-           (parts_.free ? parts_.free->bytes() : 0);
-  }
-
-  void persist(Archive<B>& archive) {
+  void name_fields(Archive<B>& archive) {
     for (double& scale : scales_) archive.number(scale);
     archive.number(first_);
-    archive.field("the axes' share of the momenta", parts_.inverse_mass->frames().share());
-    archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
+    parts_.inverse_mass->name_fields(archive);
     archive.field("how far they turned", turned_);
+    archive.owns(blocks_.view(), sums_, watch_);
+    parts_.fitter->name_fields(archive);
+    if (parts_.free) parts_.free->name_fields(archive);
   }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 // its mesh
 constexpr double automatic_step = 8, step_with_contact = 4;
 /// Maximum vertices of the coarsest mesh for which its dense matrix costs less than a space below
-/// it. See cmake/docs/him.md.
+/// it. See cmake/docs/explanation/him.md.
 constexpr int most_in_coarsest_mesh = 600;
 
 /// Meshes of one body at rest, finest first, separate from other bodies.

@@ -3,7 +3,7 @@
 #include <plica/drivers/cycles/him/him_body.hpp>
 #include <plica/drivers/cycles/stepper.hpp>
 
-// Symbols of cmake/docs/him.md: A is HimParts::inverse_mass, gamma, b and alpha are in
+// Symbols of cmake/docs/explanation/him.md: A is HimParts::inverse_mass, gamma, b and alpha are in
 // HimParts::fit.
 namespace plica {
 

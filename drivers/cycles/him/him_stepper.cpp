@@ -15,7 +15,8 @@ namespace {
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
 constexpr double explicit_safety = 0.9;  // explicit step over the largest stable one
-// Cost of a step of the inverse mass, over that of an explicit step of level 0: cmake/docs/him.md
+// Cost of a step of the inverse mass, over that of an explicit step of level 0:
+// cmake/docs/explanation/him.md
 constexpr double cost_of_step = 3, cost_with_contact = 6;
 constexpr int most_explicit = 1 << 14;  // maximum sub-steps, over those of level 0 at rest
 
@@ -253,25 +254,19 @@ void HimStepper<B>::regrow(Hierarchy<B>& h, double t, long steps) {
 }
 
 template <class B>
-std::size_t HimStepper<B>::bytes() const {
-  std::size_t total = fields_.bytes();
-  for (const HimBody<B>& body : bodies_) total += body.bytes();
-  return total;
-}
-
-template <class B>
-void HimStepper<B>::persist(Archive<B>& archive) {
+void HimStepper<B>::name_fields(Archive<B>& archive) {
   archive.number(halvings_), archive.number(explicit_), archive.number(repairs_),
       archive.number(explicit_steps_);
   archive.number(explicit_until_), archive.number(has_momenta_);
-  regaining_.persist(archive);
-  for (HimBody<B>& body : bodies_) body.persist(archive);
-  use_fits();
+  regaining_.name_fields(archive);
+  for (HimBody<B>& body : bodies_) body.name_fields(archive);
+  if (archive.restoring()) use_fits();
   archive.field("the momenta", fields_.p);
   archive.field("the last force", fields_.force_before);
   archive.field("the last answer", fields_.answer_before);
   archive.field("the last contact", fields_.contact.force);
   archive.field("how much touched", fields_.contact.touching);
+  archive.owns(fields_.g, fields_.a, fields_.contact_answer);
 }
 
 template <class B>

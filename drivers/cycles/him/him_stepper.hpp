@@ -6,8 +6,8 @@
 #include <plica/drivers/cycles/stepper.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 
-// Symbols of cmake/docs/him.md: A p is answer(), p is momenta(), F is found in HimBody::kick().
-// t is the time of one step: macro_step_ / 2^halvings_.
+// Symbols of cmake/docs/explanation/him.md: A p is answer(), p is momenta(), F is found in
+// HimBody::kick(). t is the time of one step: macro_step_ / 2^halvings_.
 namespace plica {
 
 /// Stepper of the hierarchical inverse mass A: one V-cycle and one force evaluation per step.
@@ -15,7 +15,7 @@ namespace plica {
 /// accelerations with the inertia of the motion that it can represent, and these are interpolated
 /// back up. Motion that coarse levels represent keeps its own inertia. Finer detail gets more
 /// inertia: it is slowed, and so allows the step. Static equilibrium is that of the finest mesh.
-/// The scheme is of second order. See cmake/docs/him.md.
+/// The scheme is of second order. See cmake/docs/explanation/him.md.
 ///
 /// The momenta p are integrated, and v = A p. The scheme is symplectic Euler of the energy p.A(x)
 /// p/2 + V(x). The state is taken half a step after the forces, so that at t_n and t_n+1 it is that
@@ -68,8 +68,7 @@ class HimStepper final : public Stepper<B> {
             {"him_explicit_steps", explicit_steps_},
             {"substeps_regained", regaining_.count()}};
   }
-  std::size_t bytes() const override;
-  void persist(Archive<B>& archive) override;
+  void name_fields(Archive<B>& archive) override;
 
  private:
   HimOptions options_;

@@ -111,13 +111,6 @@ void InertiaFitter<B>::set_answer(double t, double sigma) {
 }
 
 template <class B>
-std::size_t InertiaFitter<B>::bytes() const {
-  std::size_t total = 0;
-  for (const auto& [step, answer] : answers_) total += answer.span() * sizeof(float);
-  return total;
-}
-
-template <class B>
 InertiaFit InertiaFitter<B>::use(double t, double sigma, double scale) {
   set_answer(t, sigma);
   return weigh(t, sigma, scale);

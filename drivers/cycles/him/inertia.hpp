@@ -10,9 +10,9 @@
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <vector>
 
-// Symbols of cmake/docs/him.md: gamma is InertiaFit::scale, alpha_i is 1 / InertiaFit::inertia[i],
-// t_i is InertiaFitter::critical_steps()[i], S is InverseMass::Answer. A is inverse_mass_, b its
-// weights.
+// Symbols of cmake/docs/explanation/him.md: gamma is InertiaFit::scale, alpha_i is 1 /
+// InertiaFit::inertia[i], t_i is InertiaFitter::critical_steps()[i], S is InverseMass::Answer. A is
+// inverse_mass_, b its weights.
 namespace plica {
 
 /// Result of fitting a hierarchical inverse mass to a step.
@@ -48,8 +48,9 @@ class InertiaFitter {
   /// The product of the returned fit is not known.
   InertiaFit use(double t, double sigma, double scale);
 
-  /// Returns the device memory of the matrices S of all steps so far [bytes].
-  std::size_t bytes() const;
+  void name_fields(Archive<B>& archive) const {
+    for (const auto& [step, answer] : answers_) archive.owns(answer);
+  }
 
   /// Returns t^2 lambda_max(A K) at the state u, with the present weights, for steps of t [s].
   double product(double t, const Vectors<B>& u) const { return t * t * largest(u, fit_tolerance); }

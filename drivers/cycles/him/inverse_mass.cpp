@@ -194,15 +194,6 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
   where_touching<B>(exec, count, "plica::him_up", vertices_, answer_of_finest(f, a));
 }
 
-template <class B>
-std::size_t InverseMass<B>::bytes() const {
-  std::size_t total = bytes_of_views(filter_.turned) + frames_.bytes();
-  for (const MassLevel<B>& level : coarser_)
-    total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
-             bytes_of_rows(level.share) + bytes_of_views(level.force, level.acceleration);
-  return total;
-}
-
 #define PLICA_INSTANTIATE(Real, Exec) template class InverseMass<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/fields.hpp>
 #include <plica/core/inverse_mass.hpp>
 #include <plica/drivers/cycles/him/coarse_frames.hpp>
 #include <vector>
 
-// Symbols of cmake/docs/him.md: A is apply(), b are weights_. P_i is coarser_[i].up. S is
-// filter_.matrix, R is filter_.rotation. F is found by solve_frame_force(); g = frames_.force() is
-// F on the coarsest vertices.
+// Symbols of cmake/docs/explanation/him.md: A is apply(), b are weights_. P_i is coarser_[i].up. S
+// is filter_.matrix, R is filter_.rotation. F is found by solve_frame_force(); g = frames_.force()
+// is F on the coarsest vertices.
 namespace plica {
 
 /// Hierarchical inverse mass A of one body: accelerations a = A f by forces on the finest level.
@@ -55,7 +54,10 @@ class InverseMass {
 
   const CoarseInverseMass<B>& filter() const { return filter_; }
   const CoarseFrames<B>& frames() const { return frames_; }
-  std::size_t bytes() const;  ///< device memory, without S
+  void name_fields(Archive<B>& archive) const {
+    frames_.name_fields(archive);
+    archive.owns(coarser_, filter_);
+  }
 
  private:
   int vertices_;

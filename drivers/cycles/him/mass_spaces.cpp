@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <plica/core/dense.hpp>
+#include <plica/core/error.hpp>
 #include <plica/core/row_ranges.hpp>
 #include <plica/drivers/cycles/him/mass_spaces.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
@@ -46,7 +47,11 @@ CoarseModes::CoarseModes(Eigen::MatrixXd K, const RowMatrix& M) : unknowns_(K.ro
 Eigen::MatrixXd CoarseModes::answer(double t, double kappa) const {
   if (squares_.size() == 0) {
     Eigen::MatrixXd inverse = M_ + (t * t / kappa) * K_;
-    dense::invert(static_cast<int>(inverse.rows()), inverse.data());
+    if (!dense::invert(static_cast<int>(inverse.rows()), inverse.data()))
+      throw InputError(
+          "integration.cycle is him, but the stiffness of a coarse space at rest is not positive "
+          "definite; expected a body whose elements and material are stable at rest, or cycle: "
+          "single");
     return inverse;
   }
   const Eigen::VectorXd s =

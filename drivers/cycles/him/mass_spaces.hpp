@@ -4,8 +4,8 @@
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <vector>
 
-// Symbols of cmake/docs/him.md: S is CoarseModes::answer(). K_C and M_C are K and M of its
-// constructor, Phi is modes_, omega^2 is squares_. P_i, M_i+1 and D of M_i+1 are MassSpace::up,
+// Symbols of cmake/docs/explanation/him.md: S is CoarseModes::answer(). K_C and M_C are K and M of
+// its constructor, Phi is modes_, omega^2 is squares_. P_i, M_i+1 and D of M_i+1 are MassSpace::up,
 // mass and inverse_diagonal (D^-1) of space i.
 namespace plica {
 

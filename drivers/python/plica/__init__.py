@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plica: soft tissue in time, on several meshes at once.
+"""Plica: soft-tissue simulation with nonlinear tetrahedral finite elements, contact and surgical tools.
 
     import plica
     sim = plica.Simulation("ball.yaml", duration="0.5 s")
@@ -11,8 +11,13 @@ order of the meshes' files.
 """
 
 import atexit
+import os
 
-from . import _plica
+# Threads of GNU's OpenMP that wait sleep soon, so that a busy machine does not hold up those that work. Read when that library is loaded.
+if not {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"} & set(os.environ):
+    os.environ["GOMP_SPINCOUNT"] = "1000"
+
+from . import _plica  # noqa: E402
 from ._plica import Diagnosis, Energies, FileError, InputError
 from .mesh import Mesh
 from .mesh import whole as _whole

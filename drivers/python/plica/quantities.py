@@ -12,7 +12,8 @@ import numpy as np
 class Wrench:
     """What an obstacle does to the body. The obstacle feels the opposite.
 
-    force: [3] N. torque: [3] N m, about the obstacle's origin, which moves with it.
+    force: [3] N.
+    torque: [3] N m, about the obstacle's origin, which moves with it.
     """
 
     force: np.ndarray
@@ -21,7 +22,11 @@ class Wrench:
 
 @dataclass(frozen=True)
 class Cavity:
-    """How a load with `enclosed_volume` is. volume: m^3. pressure: of the fluid in it [Pa]."""
+    """How a load with `enclosed_volume` is.
+
+    volume: of the cavity [m^3].
+    pressure: of the fluid in it [Pa].
+    """
 
     volume: float
     pressure: float
@@ -29,8 +34,13 @@ class Cavity:
 
 @dataclass(frozen=True)
 class Tool:
-    """Where an obstacle with mass is. displacement: [3] m of its centre of mass from where its shape says. velocity: [3] m/s.
-    rotation: [3] rad, its direction the axis and its length the angle. angular_velocity: [3] rad/s. Both are 0 without inertia."""
+    """Where an obstacle with mass is.
+
+    displacement: [3] m, of its centre of mass from where its shape says.
+    velocity: [3] m/s.
+    rotation: [3] rad, its direction the axis and its length the angle; 0 without inertia.
+    angular_velocity: [3] rad/s; 0 without inertia.
+    """
 
     displacement: np.ndarray
     velocity: np.ndarray

@@ -68,6 +68,7 @@ class Scene:
 
     source: a YAML file, or a dict that says the same; left out, the keyword arguments are all of it.
     set: values put over it, by path: {"body.material.young_modulus": "20 kPa", "body.levels.0.box.cells": [8, 8, 8]}.
+
     Keyword arguments do the same for the keys of the top level, and dicts reach further down:
     Scene("ball.yaml", duration="0.5 s", integration={"macro_step": "1 ms"}).
 

@@ -300,7 +300,8 @@ class Simulation:
         """Goes on from here while a page in a browser shows it: the mouse pulls the body and pushes it with a ball, sliders change
         gravity, stiffness and speed. Until Ctrl-C (in a notebook: interrupt the kernel).
 
-        port: of the page's address on this machine; 0: any free one. browser: whether one is opened.
+        port: of the page's address on this machine; 0: any free one.
+        browser: whether one is opened.
         """
         return self._view(_plica.Port(whole("port", port)), browser)
 

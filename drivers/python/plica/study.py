@@ -16,6 +16,7 @@ def study(scene=None, *, budget: float | str | None = None, set: dict | None = N
 
     scene: a plica.Scene, or what makes one; its section `study` says what is compared.
     budget: wall time of all of it, seconds or "60 s"; what does not fit is left out.
+
     Columns are those of study.csv: method, macro_step [s], error, wall_time [s], status, pareto ... Ctrl-C stops it.
     """
     pandas = needed("pandas", "plica.study")

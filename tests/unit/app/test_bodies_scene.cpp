@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <any>
+#include <filesystem>
+#include <fstream>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 
 #include "support/refusal.hpp"
 
@@ -151,6 +156,25 @@ TEST(BodiesScene, LatticesStandBesideMeshes) {
   const std::string said =
       refusal([&] { scene_of(with(box, "{" + surface + "[2 cm]}\n    initial")); });
   EXPECT_NE(said.find("bodies.right.levels.sizes are 1; expected 2"), std::string::npos) << said;
+}
+
+// Obstacles are shared by all bodies: they are read once, and what is wrong with them is said once.
+TEST(BodiesScene, ObstaclesAreReadOnce) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "plica_sheet_of_two_bodies.obj";
+  std::ofstream(file) << "v 0 0 -5\nv 1 0 -5\nv 0 1 -5\nv 5 5 5\nf 1 2 3\n";
+  const Scene scene =
+      scene_of(with("{friction: 0.2}", "{obstacles: [{surface: {file: '" + file.string() +
+                                           "', thickness: 0.1}}, {plane: {point: [0, 0, -9]}}]}"));
+  std::filesystem::remove(file);
+  EXPECT_EQ(std::ranges::count_if(
+                scene.warnings,
+                [](const std::string& s) { return s.find("unused point") != std::string::npos; }),
+            1);
+  const auto& obstacles = scene.problem.contact.obstacles;
+  ASSERT_EQ(obstacles.size(), 2u);
+  const auto& sheet = std::any_cast<const SurfaceOptions&>(obstacles[0].shape);
+  EXPECT_EQ(sheet.surface.triangles.size(), 1u);
+  EXPECT_EQ(sheet.thickness, 0.1);
 }
 
 }  // namespace

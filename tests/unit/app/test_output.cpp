@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <plica/core/error.hpp>
@@ -10,6 +9,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/report/read_files.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <sstream>
 
@@ -204,32 +204,23 @@ TEST(RunFiles, HistoryCountsHalvings) {
   EXPECT_TRUE(text.ends_with(",12\n")) << text;
 }
 
-// A field of a .vtu file that is appended in doubles
-std::vector<double> field_of(const std::string& vtu, const std::string& name) {
-  const std::size_t entry = vtu.find("Name=\"" + name + "\""),
-                    offset = vtu.find("offset=\"", entry) + 8;
-  if (entry == std::string::npos) return {};
-  const std::size_t start = vtu.find("\n_") + 2 + std::stoul(vtu.substr(offset));
-  std::uint64_t size = 0;
-  std::memcpy(&size, vtu.data() + start, sizeof size);
-  std::vector<double> values(size / sizeof(double));
-  std::memcpy(values.data(), vtu.data() + start + sizeof size, size);
-  return values;
-}
-
 TEST(RunFiles, VolumesHaveTheirFields) {
   const TemporaryFolder folder;
   const Scene scene = scene_of(block);
   RunFiles files(scene, folder.path());
   files.write(moved(scene, 0.25, {0, 0, 0.5}));
-  const std::string vtu = content_of(folder / "frames/volume_0000.vtu");
-  EXPECT_EQ(field_of(vtu, "von_mises"), std::vector(48, 7.0));
-  EXPECT_EQ(field_of(vtu, "J"), std::vector(48, 0.9));
-  const std::vector<double> mass = field_of(vtu, "mass");
+  const FrameFile frame = read_frame(folder / "frames/volume_0000.vtu");
+  std::vector<std::string> names;
+  for (const FrameArray& array : frame.arrays) names.push_back(array.name);
+  ASSERT_EQ(names,
+            (std::vector<std::string>{"displacement", "velocity", "mass", "von_mises", "J"}));
+  EXPECT_EQ(frame.find("von_mises")->values, std::vector(48, 7.0));
+  EXPECT_EQ(frame.find("J")->values, std::vector(48, 0.9));
+  const std::vector<double>& mass = frame.find("mass")->values;
   ASSERT_EQ(mass.size(), 27);
   EXPECT_NEAR(std::accumulate(mass.begin(), mass.end(), 0.0), 1000, 1e-9);
-  EXPECT_EQ(field_of(vtu, "displacement").size(), 81);
-  EXPECT_EQ(field_of(vtu, "velocity").size(), 81);
+  EXPECT_EQ(frame.find("displacement")->values.size(), 81);
+  EXPECT_EQ(frame.find("velocity")->values.size(), 81);
 }
 
 TEST(RunFiles, GoOnFromTheirMark) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/meshes/files/vtu_arrays.hpp>
+#include <plica/meshes/files/base64.hpp>
 
 #include "unit/app/child.hpp"
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
+#include <limits>
 #include <plica/core/dense.hpp>
 
 namespace {
@@ -30,7 +32,23 @@ TEST(Dense, Inverses) {
 TEST(Dense, ToldOfMatricesThatAreNotPositiveDefinite) {
   MatrixXd A = symmetric(5, 1);
   A(3, 3) = -1;
+  const MatrixXd before = A;
   EXPECT_FALSE(dense::invert(5, A.data()));
+  EXPECT_EQ(A, before);
+}
+
+TEST(Dense, ToldOfMatricesThatAreNotFinite) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const Eigen::Index column : {0, 2, 4}) {
+      MatrixXd A = symmetric(5, 1);
+      A(4, column) = bad;
+      EXPECT_FALSE(dense::invert(5, A.data())) << bad << " " << column;
+      A = symmetric(5, 1);
+      MatrixXd inverse = A;
+      inverse(0, 4) = bad;  // of the upper half, which is not read
+      ASSERT_TRUE(dense::invert(5, inverse.data()));
+      EXPECT_LT((A * inverse - MatrixXd::Identity(5, 5)).norm(), 1e-9 * A.norm());
+    }
 }
 
 /// M times the 3x3 unit matrix.

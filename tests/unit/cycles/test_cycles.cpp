@@ -148,6 +148,25 @@ TYPED_TEST(CyclesOn, OutsideRulesAgreeOnLevelsThatOverlapFully) {
         << outside;
 }
 
+// Detail that a coarser mesh cannot have stays where its variation goes up, and is lost where its
+// state does.
+TYPED_TEST(CyclesOn, DetailStaysWhereVariationsGoUp) {
+  for (const std::string& cycle : sharing_cycles()) {
+    Problem p = cube_levels(2, 4, cycle);
+    p.integration.macro_step = 1e-7, p.integration.switch_threshold = 1e6;
+    Simulation<TypeParam> simulation(p);
+    const auto detail = random_field(p.body.levels[0].vertices.size(), 1e-4, 3);
+    simulation.set_state(detail, std::vector<Point>(detail.size(), Point::Zero()));
+    for (int n = 0; n < 3; ++n) simulation.step();
+    const double lost =
+        largest_difference(displacements(simulation, p.body.levels[0]), detail) / 1e-4;
+    if (cycle == "rs")
+      EXPECT_GT(lost, 0.1);
+    else
+      EXPECT_LT(lost, 0.01) << cycle;
+  }
+}
+
 // The restriction of a variation telescopes: with nothing fixed, `rv` is `rsv` that never switches.
 TYPED_TEST(CyclesOn, SwitchingNeverIsVariationAndAlwaysIsState) {
   const auto after = [](const std::string& cycle, double threshold) {

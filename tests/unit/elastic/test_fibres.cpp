@@ -99,6 +99,23 @@ TEST(Fibres, OfACoarserLevelAreThoseOfTheNearestElement) {
   }
 }
 
+TEST(Fibres, OfALevelAloneAreThoseThatItHasBesideLevel0) {
+  Problem p =
+      body_of({jittered_box(decimetre, {3, 3, 3}), jittered_box(decimetre, {2, 2, 2})}, "costa");
+  p.body.material.fibres = FibreOptions{.sheet = Point::UnitZ(), .field = "f"};
+  TetMesh &fine = p.body.levels[0], &coarse = p.body.levels[1];
+  for (std::size_t t = 0; t < fine.tets.size(); ++t)
+    fine.tet_vectors["f"].push_back(Point(1, static_cast<double>(t), 0));
+  coarse.tet_vectors["own"].assign(coarse.tets.size(), Point::UnitY());
+  fine.tet_vectors["own"].assign(fine.tets.size(), Point::UnitX());
+  const auto beside = element_fibres(p.body, coarse, 1);
+  fields_to_levels(p.body);
+  EXPECT_EQ(coarse.tet_vectors.at("own")[0], Point(Point::UnitY())) << "a level's own field stays";
+  Body alone = p.body;
+  alone.levels.erase(alone.levels.begin());
+  EXPECT_EQ(element_fibres(alone, alone.levels[0], 0), beside);
+}
+
 constexpr double inner = 0.02, outer = 0.05;
 
 /// A quarter of a pipe: the temperature between its walls is the logarithm of the radius, between

@@ -94,7 +94,9 @@ struct StageCase {
     const SolveOutcome out =
         solver->solve(exec(), device_field<B>(r), answer, chosen.options.relative_residual);
     x = to_host<B>(exec(), answer);
-    EXPECT_GT(solver->bytes(), 0U);
+    Archive<B> archive;
+    solver->name_fields(archive);
+    EXPECT_GT(archive.measured(), 0U);
     return out;
   }
 };
@@ -240,6 +242,24 @@ int iterations(const std::string& preconditioner, int cells, const std::string& 
   const SolveOutcome out = solver->solve(exec, device_field<Host>(r), x, 1e-8);
   EXPECT_TRUE(out.converged);
   return out.iterations;
+}
+
+TEST(LinearSolvers, UnknownNamesAreRefusedWithTheNearest) {
+  Problem p = body_of({jittered_box(decimetre, {2, 2, 2})});
+  p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.01;
+  LevelProbe<Host> probe(p);
+  const auto refused = [&](const std::string& solver, const std::string& preconditioner) {
+    LinearSolverParts parts = linear_solver_parts(p, 0, true, "conjugate_gradients");
+    parts.options.solver = solver, parts.options.preconditioner = preconditioner;
+    return refusal([&] { make_linear_solver<Host>(parts, probe.at(0)); });
+  };
+  EXPECT_EQ(refused("conjugate_gradients", "block_jacobi"), "");
+  EXPECT_EQ(refused("conjugate_gradient", "block_jacobi"),
+            "unknown linear solver 'conjugate_gradient'; did you mean 'conjugate_gradients'? "
+            "(choices: conjugate_gradients, direct, v_cycle)");
+  EXPECT_EQ(refused("conjugate_gradients", "block_jakobi"),
+            "unknown preconditioner 'block_jakobi'; did you mean 'block_jacobi'? (choices: "
+            "block_jacobi, chebyshev, multigrid)");
 }
 
 TEST(LinearSolvers, MultigridIterationsHardlyGrow) {

@@ -125,6 +125,32 @@ TEST(Cavity, StiffnessIsTheDerivativeOfItsForces) {
     EXPECT_LE((all[a] - elastic[a] - (down[a] - up[a]) / (2 * h)).norm(), 1e-6 * size) << a;
 }
 
+// Newton's method descends the energy of a load on a closed surface: its change is the work that
+// the load's forces do, with a sign.
+TEST(Cavity, EnergyChangesByTheWorkOfItsPressure) {
+  Problem p = balloon(1.5);
+  Problem alone = p;
+  alone.body.loads.clear();
+  LevelProbe<Host> without(alone);
+  for (const bool fluid : {true, false}) {
+    p.body.loads[0].load = EnclosedVolume{1.5, K};
+    if (!fluid) p.body.loads[0].load = FollowerPressure{4e3};
+    LevelProbe<Host> with(p);
+    const auto u = random_field(with.vertices(), 3e-3, 7), e = random_field(with.vertices(), 1, 8);
+    const auto energy = [&](double ahead) {
+      for (std::size_t a = 0; a < u.size(); ++a)
+        for (int k = 0; k < 3; ++k) with.at(0).state.u(a, k) = u[a][k] + ahead * e[a][k];
+      return with.at(0).term_energy(0.1);
+    };
+    const auto f = minus(with.force(u, with.zero(), 0.1), without.force(u, without.zero(), 0.1));
+    double work = 0;
+    for (std::size_t a = 0; a < u.size(); ++a) work += f[a].dot(e[a]);
+    EXPECT_GT(std::abs(work), 1e-2);
+    constexpr double h = 1e-6;
+    EXPECT_NEAR((energy(-h) - energy(h)) / (2 * h), work, 1e-5 * std::abs(work));
+  }
+}
+
 // A fluid that is much stiffer than the wall, in steps far above those that are stable explicitly
 TEST(Cavity, IsFilledInImplicitSteps) {
   Problem p = balloon(1.3, 1e4 * K);

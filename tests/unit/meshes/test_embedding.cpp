@@ -342,4 +342,12 @@ TEST(SignedDistance, ABoundChangesNothing) {
   }
 }
 
+TEST(SignedDistance, OfAPointThatIsNotFiniteIsNotANumber) {
+  const TriangleSurface s = sphere_surface({0, 0, 0}, 1, 1);
+  const SignedDistance distance(s);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(distance(Point(0, nan, 0))));
+  EXPECT_TRUE(std::isnan(distance(Point(0, nan, 0), 0.5)));
+}
+
 }  // namespace

@@ -34,11 +34,27 @@ TEST(Formats, EveryFileHoldsTheSameBlocks) {
   }
 }
 
-TEST(Formats, SecondOrderIsTakenByItsCorners) {
+TEST(Formats, SecondOrderIsSplitInEight) {
   for (const char* name : {"blocks_order2.msh", "blocks_order2.vtk"}) {
     SCOPED_TRACE(name);
     MeshReport report;
-    expect_blocks(read_mesh(sample(name), &report));
+    const TetMesh mesh = read_mesh(sample(name), &report);
+    EXPECT_EQ(report.split, 48);
+    EXPECT_TRUE(report.linearised.empty());
+    EXPECT_EQ(report.flipped + report.unreferenced, 0);
+    EXPECT_EQ(mesh.tets.size(), 384u);
+    EXPECT_EQ(mesh.vertices.size(), 113u) << "all nodes of the file";
+    EXPECT_EQ(report.vertex_tags.back() - report.vertex_tags.front(), 112) << "by their numbers";
+    EXPECT_NEAR(mesh_quality(mesh).volume, blocks_volume, 1e-15);
+    EXPECT_NEAR(mesh_quality(mesh).boundary_area, 10 * 4e-4, 1e-12);
+  }
+}
+
+TEST(Formats, SecondOrderIsTakenByItsCornersIfAsked) {
+  for (const char* name : {"blocks_order2.msh", "blocks_order2.vtk"}) {
+    SCOPED_TRACE(name);
+    MeshReport report;
+    expect_blocks(read_mesh(sample(name), &report, {.order = SecondOrder::linear}));
     EXPECT_EQ(report.linearised.at("second-order tetrahedron"), 48);
     EXPECT_EQ(report.unreferenced, 0) << "the middles of edges are no stray points";
   }
@@ -197,6 +213,39 @@ TEST(Formats, VectorsOfCellsAndPointsAreKept) {
       << "the mean of its corners";
 }
 
+TEST(Formats, NoTwoArraysOfAFileHaveOneName) {
+  TetMesh mesh = read_mesh(sample("blocks_zlib.vtu"));
+  ASSERT_FALSE(mesh.region.empty());
+  const auto vectors = [&](double x) {
+    return std::vector<Point>(mesh.tets.size(), Point(x, 0, 1));
+  };
+  mesh.tet_vectors = {{"a b", vectors(1)},
+                      {"a<b", vectors(2)},
+                      {"a_b", vectors(3)},
+                      {"a_b_2", vectors(4)},
+                      {"region", vectors(5)}};
+  for (const char* name : {"m.vtk", "m.vtu"}) {
+    const WrittenMesh written = write_mesh(name, mesh, "", false);
+    const TetMesh again = read_mesh(written.files.front());
+    EXPECT_EQ(again.region, mesh.region) << name;
+    ASSERT_EQ(again.tet_vectors.size(), 5u) << name;
+    EXPECT_EQ(again.tet_vectors.at("a_b"), vectors(3)) << "a name that can stay stays";
+    EXPECT_EQ(again.tet_vectors.at("a_b_2"), vectors(4));
+    EXPECT_EQ(again.tet_vectors.at("a_b_3"), vectors(1));
+    EXPECT_EQ(again.tet_vectors.at("a_b_4"), vectors(2));
+    EXPECT_EQ(again.tet_vectors.at("region_2"), vectors(5));
+    EXPECT_EQ(std::ranges::count_if(written.left_out,
+                                    [](const std::string& s) {
+                                      return s.find("another array has the name") !=
+                                             std::string::npos;
+                                    }),
+              3)
+        << name;
+  }
+  mesh.tet_vectors = {{"a\nb", vectors(1)}};
+  EXPECT_THROW(write_mesh("m.msh", mesh, "msh41", false), InputError);
+}
+
 TEST(Formats, VectorsOfMshNodesAndElements) {
   const std::string mesh =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n7 0 0 0\n8 1 0 0\n9 0 1 0\n10 0 0 1\n11 1 "
@@ -224,6 +273,10 @@ TEST(Formats, VectorsOfMshNodesAndElements) {
   };
   refused("1\n0\n", "m.msh:21", "$NodeData has 1 integer tags; expected 3 or more");
   refused("3\n0\n3\n9999\n7 1 0 0\n", "m.msh:25", "the number of vectors is 9999");
+  refused("3\n0\n3\n1x\n7 1 0 0\n", "m.msh:25", "integer tag 3 of 3");
+  refused("3\n0\n3\n-1\n7 1 0 0\n", "m.msh:25", "the number of vectors is -1");
+  refused("3\n0\n3\n99999999999999999999\n7 1 0 0\n", "m.msh:25", "integer tag 3 of 3");
+  refused("3\n0\nthree\n1\n7 1 0 0\n", "m.msh:24", "integer tag 2 of 3");
   refused("3\n0\n3\n2\n7 1 0 0\n7 1 0 0\n", "m.msh:27", "tag 7 has a vector 'f' already");
   refused("3\n0\n3\n1\n7 1 0\n", "m.msh:26", "a component of a vector");
 }

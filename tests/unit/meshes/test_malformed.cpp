@@ -42,7 +42,7 @@ const Change changes_2[] = {
     {"$Nodes\n5", "$Nodes\nfive", 12, {"'five'", "integer"}},
     {"10 0 0 1", "10 0 nan 1", 16, {"coordinate y is 'nan'", "finite"}},
     {"10 0 0 1", "10 -inf 0 1", 16, {"coordinate x is '-inf'", "finite"}},
-    {"10 0 0 1", "10 0 0 1e999", 16, {"coordinate z is '1e999'", "number"}},
+    {"10 0 0 1", "10 0 0 1e999", 16, {"coordinate z is '1e999'", "finite"}},
     {"10 0 0 1", "10 0 0,5 1", 16, {"'0,5'", "number"}},
     {"10 0 0 1", "10 0 0", 16, {"'10 0 0'", "coordinate z"}},
     {"10 0 0 1", "10 0 0 1 7", 16, {"'10 0 0 1 7'", "three coordinates"}},

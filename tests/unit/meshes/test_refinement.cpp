@@ -81,6 +81,28 @@ TEST(Refinement, CutsEachIntoEightOfTheSameVolume) {
   }
 }
 
+TEST(Refinement, PartsHaveAllThatTheirTetrahedronHas) {
+  TetMesh mesh = box_mesh(brick, {2, 1, 1});
+  mesh.region_names = {"even", "odd"};
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    mesh.region.push_back(static_cast<int>(t % 2));
+    mesh.filled.push_back(1.0 / static_cast<double>(t + 1));
+    mesh.tet_vectors["fibres"].push_back(Point(1, static_cast<double>(t), 0));
+    mesh.tet_vectors["sheets"].push_back(Point(0, 0, static_cast<double>(t)));
+  }
+  const TetMesh fine = refined(mesh);
+  ASSERT_EQ(fine.region.size(), fine.tets.size());
+  ASSERT_EQ(fine.filled.size(), fine.tets.size());
+  for (const char* name : {"fibres", "sheets"})
+    ASSERT_EQ(fine.tet_vectors.at(name).size(), fine.tets.size()) << name;
+  for (std::size_t t = 0; t < fine.tets.size(); ++t) {
+    EXPECT_EQ(fine.region[t], mesh.region[t / 8]);
+    EXPECT_EQ(fine.filled[t], mesh.filled[t / 8]);
+    for (const char* name : {"fibres", "sheets"})
+      EXPECT_EQ(fine.tet_vectors.at(name)[t], mesh.tet_vectors.at(name)[t / 8]) << name;
+  }
+}
+
 TEST(Refinement, SetsOfTheBoundaryStayThere) {
   TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1});
   // all on the boundary; the cell's diagonal is not

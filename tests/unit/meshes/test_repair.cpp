@@ -100,6 +100,8 @@ TEST(RepairMesh, DuplicatesAreMergedAndLoosePartsDropped) {
     for (auto tet : part.tets) {
       for (int& v : tet) v += base;
       mesh.tets.push_back(tet), mesh.region.push_back(region);
+      mesh.filled.push_back(1 / static_cast<double>(mesh.tets.size()));
+      mesh.tet_vectors["fibres"].push_back(Point(1, static_cast<double>(mesh.tets.size()), 0));
     }
   };
   add(one, Point::Zero(), 0), add(crumb, Point(5, 0, 0), 0), add(one, Point(1, 0, 0), 1);
@@ -113,8 +115,14 @@ TEST(RepairMesh, DuplicatesAreMergedAndLoosePartsDropped) {
   EXPECT_EQ(repair.mesh.vertices.size(), 45u);
   EXPECT_EQ(repair.mesh.vertices[static_cast<std::size_t>(repair.mesh.vertex_sets.at("end")[0])],
             Point(2, 1, 1));
-  for (std::size_t t = 0; t < repair.mesh.tets.size(); ++t)
-    EXPECT_EQ(repair.mesh.region[t], mesh.region[static_cast<std::size_t>(repair.original_tet[t])]);
+  ASSERT_EQ(repair.mesh.filled.size(), repair.mesh.tets.size());
+  ASSERT_EQ(repair.mesh.tet_vectors.at("fibres").size(), repair.mesh.tets.size());
+  for (std::size_t t = 0; t < repair.mesh.tets.size(); ++t) {
+    const auto from = static_cast<std::size_t>(repair.original_tet[t]);
+    EXPECT_EQ(repair.mesh.region[t], mesh.region[from]);
+    EXPECT_EQ(repair.mesh.filled[t], mesh.filled[from]);
+    EXPECT_EQ(repair.mesh.tet_vectors.at("fibres")[t], mesh.tet_vectors.at("fibres")[from]);
+  }
   for (std::size_t v = 0; v < repair.mesh.vertices.size(); ++v)
     EXPECT_EQ(repair.vertex[static_cast<std::size_t>(repair.original_vertex[v])],
               static_cast<int>(v));
@@ -178,6 +186,15 @@ TEST(Lattice, CoversABallAndNoMore) {
   EXPECT_THROW(lattice_mesh(ball, 1.1), InputError);
   EXPECT_THROW(lattice_mesh(ball, 1e-4), InputError);
   EXPECT_THROW(lattice_mesh(ball, 0), InputError);
+}
+
+TEST(Lattice, RefusesVerticesThatAreNotFinite) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    TriangleSurface surface = sphere_surface({0, 0, 0}, 1, 1);
+    surface.vertices[3][1] = bad;
+    EXPECT_THROW(lattice_mesh(surface, 0.3), InputError);
+    EXPECT_THROW(weighted_lattice(surface, 0.3), InputError);
+  }
 }
 
 TEST(Lattice, CoarserThanAMeshWithItsRegions) {

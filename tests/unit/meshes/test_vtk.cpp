@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
-#include <plica/meshes/files/vtu_arrays.hpp>
+#include <plica/meshes/files/base64.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
@@ -51,9 +51,11 @@ TEST(Vtk, TakesTetrahedraAndRegions) {
   expect_same(read_text(two_tets_5), mesh);
 }
 
-TEST(Vtk, RegionsAreTheArrayOfThatNameOrTheFirstOfIntegers) {
-  EXPECT_EQ(read_text(with(two_tets, "region 1 3", "other 1 3")).region_names,
-            (std::vector<std::string>{"quality_8", "quality_9"}));
+TEST(Vtk, RegionsAreAnArrayWithAUsualName) {
+  EXPECT_TRUE(read_text(with(two_tets, "region 1 3", "other 1 3")).region_names.empty());
+  EXPECT_EQ(read_text(with(two_tets, "region 1 3 int\n0 5 2", "Material_IDs 1 3 float\n0 5.0 2e0"))
+                .region_names,
+            (std::vector<std::string>{"Material_IDs_2", "Material_IDs_5"}));
   EXPECT_TRUE(read_text(with(two_tets, "0 5 2", "7 0 0")).region_names.empty());
   EXPECT_TRUE(read_text(two_tets.substr(0, two_tets.find("CELL_DATA"))).region_names.empty());
 }
@@ -159,13 +161,13 @@ TEST(MalformedVtk, Cells) {
 TEST(MalformedVtk, Arrays) {
   expect_refused_with("CELL_DATA 3", "CELL_DATA 4", 17, {"4 for 3 cells"});
   expect_refused_with("LOOKUP_TABLE default\n", "", 19, {"LOOKUP_TABLE default", "'7 8 9'"});
-  expect_refused_with("region 1 3 int", "region 1 3 double", 22,
+  expect_refused_with("region 1 3 int\n0 5 2", "region 3 3 int\n0 5 2 0 0 0 0 0 0", 22,
                       {"'region'", "one integer per cell"});
   expect_refused_with("region 1 3 int", "region 1 2 int", 23, {"'2' is too much"});
   expect_refused_with("region 1 3 int", "region 1 3 string", 22, {"'string'", "choices"});
   expect_refused_with("region 1 3 int", "region 0 3 int", 22, {"components is 0"});
   expect_refused_with("FieldData 1", "FieldData 2", 23, {"array 2 of 2", "the file ends"});
-  expect_refused_with("0 5 2", "0 5 x", 23, {"a region is 'x'"});
+  expect_refused_with("0 5 2", "0 5 x", 23, {"a value of the array 'region' is 'x'"});
 }
 
 TEST(MalformedVtk, Binary) {
@@ -256,7 +258,7 @@ TEST(Vtu, AnyByteChangedIsRefusedOrSound) {
 
 TEST(MalformedVtu, Files) {
   expect_refused(FileBytes{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
-  expect_refused(FileBytes{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
+  expect_refused(FileBytes{"m.vtu", "$Format\n"}, "m.vtu:1", {"XML tag", "'$Format?'"});
   expect_xml_refused("\"UnstructuredGrid\"", "\"ImageData\"", 2,
                      {"'ImageData'", "UnstructuredGrid"});
   expect_xml_refused("\"LittleEndian\"", "\"Middle\"", 2, {"byte_order is 'Middle'"});
@@ -321,11 +323,25 @@ TEST(MalformedVtu, Appended) {
   expect_refused(huge, at + std::to_string(begin + points), {"the array 'Points' has", "are left"});
 }
 
-TEST(Base64, DecodesWhatRfc4648Encodes) {
-  EXPECT_EQ(decode_base64(""), "");
-  EXPECT_EQ(decode_base64("Zg=="), "f");
-  EXPECT_EQ(decode_base64("Zm8="), "fo");
-  EXPECT_EQ(decode_base64("Zm9vYmFy"), "foobar");
+TEST(Base64, IsThatOfRfc4648) {
+  const std::pair<const char*, const char*> known[] = {{"", ""},
+                                                       {"f", "Zg=="},
+                                                       {"fo", "Zm8="},
+                                                       {"foo", "Zm9v"},
+                                                       {"foob", "Zm9vYg=="},
+                                                       {"fooba", "Zm9vYmE="},
+                                                       {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : known) {
+    std::string encoded = "after ";
+    append_base64(encoded, bytes);
+    EXPECT_EQ(encoded, std::string("after ") + text);
+    EXPECT_EQ(decode_base64(text), bytes);
+  }
+  std::string all;
+  for (int i = 0; i < 256 * 3; ++i) all += static_cast<char>(i / 3 + i % 3 * 85);
+  std::string encoded;
+  append_base64(encoded, all);
+  EXPECT_EQ(decode_base64(encoded), all);
   for (const char* bad : {"Z", "Zm9", "Zm9=v", "Z===", "====", "Zm9-", "=Zm9"})
     EXPECT_FALSE(decode_base64(bad)) << bad;
 }

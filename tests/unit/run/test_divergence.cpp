@@ -3,8 +3,10 @@
 
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/run/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 #include <regex>
 
@@ -130,6 +132,38 @@ TYPED_TEST(Divergence, NotFiniteIsFoundAtItsVertex) {
   EXPECT_EQ(bad->kind, "non_finite");
   EXPECT_EQ(bad->vertex, 17);
   EXPECT_NE(bad->text().find("vertex 17"), std::string::npos);
+}
+
+// A search among places that are not finite must not end the program: the run says where it went
+// wrong.
+TYPED_TEST(Divergence, NotFiniteIsFoundWhereBodiesTouch) {
+  using Real = typename TypeParam::Real;
+  const auto block = [](double z) {
+    Body body = body_of({box_mesh({{0, 0, z}, {0.1, 0.1, z + 0.1}}, {3, 3, 3})}).body;
+    body.surface = boundary_surface(body.levels[0]).surface;
+    return body;
+  };
+  for (const Real bad :
+       {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity()})
+    for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
+      Problem p;
+      p.body = join_bodies({{"under", block(0)}, {"over", block(0.1005)}});
+      p.integration.integrator = {integrator};
+      p.integration.macro_step = 1e-5;
+      Simulation<TypeParam> simulation(p);
+      simulation.velocity()(17, 1) = bad;
+      simulation.step(), simulation.step();
+      const auto found = simulation.check();
+      ASSERT_TRUE(found) << integrator;
+      EXPECT_EQ(found->kind, "non_finite") << integrator;
+      if (integrator == std::string("symplectic_euler")) {
+        EXPECT_GE(found->vertex, 0);
+      }
+      EXPECT_NE(found->text().find("level 0, "), std::string::npos) << found->text();
+      simulation.return_to_last_good();
+      EXPECT_TRUE(all_finite(simulation.positions()));
+      advance(simulation, 3);
+    }
 }
 
 // Where something from outside does work, energies cannot tell

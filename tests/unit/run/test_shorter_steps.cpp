@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
+#include <plica/drivers/body/masses.hpp>
+#include <plica/drivers/run/energy_meter.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
@@ -198,9 +202,8 @@ TEST(ShorterSteps, GoOnAfterACheckpoint) {
   EXPECT_TRUE(same_bits(whole.positions(), second.positions()));
 }
 
-/// The force [N] of a rod that is pressed 13 mm into an organ and held there.
-double force_of_a_held_rod(const std::string& integrator, std::optional<double> step,
-                           long* halvings = nullptr) {
+/// A rod is pressed 13 mm into an organ and held there.
+Problem held_rod(const std::string& integrator, std::optional<double> step) {
   Problem p = body_of({jittered(blob_mesh({0, 0, 0}, 0.16, 8), 0.2)}, "neo_hookean");
   p.body.element = {"nodal"};
   p.body.material.young_modulus = 50e3, p.body.material.poisson_ratio = 0.45;
@@ -211,7 +214,13 @@ double force_of_a_held_rod(const std::string& integrator, std::optional<double> 
   p.contact.obstacles.push_back(
       {CapsuleOptions{{-0.01, 0.005, 0.06}, {-0.01, 0.005, 0.2}, 8e-3}, 0.3, path});
   p.integration.integrator = {integrator}, p.integration.macro_step = step;
-  Simulation<Host> s(p);
+  return p;
+}
+
+/// The force of the rod [N].
+double force_of_a_held_rod(const std::string& integrator, std::optional<double> step,
+                           long* halvings = nullptr) {
+  Simulation<Host> s(held_rod(integrator, step));
   while (s.time() < 0.25)
     if (const auto bad = s.step_checked()) ADD_FAILURE() << bad->text();
   if (halvings) *halvings = s.counters().at("step_halvings");
@@ -227,6 +236,138 @@ TEST(ShorterSteps, AreTakenWhereContactWasNotForeseen) {
   EXPECT_GT(by_explicit, 25);
   EXPECT_NEAR(found, by_explicit, 0.05 * by_explicit);
   EXPECT_GT(halvings, 0);
+}
+
+// A second step in a row that ends in contact that it did not know of is taken in halves, also
+// where the first one was before a saved state.
+TEST(ShorterSteps, KnowFromASavedStateWhatWasNotForeseen) {
+  const Problem p = held_rod("implicit_euler", 5e-3);
+  Simulation<Host> whole(p);
+  const auto halvings = [](const Simulation<Host>& s) { return s.counters().at("step_halvings"); };
+  int compared = 0;
+  while (whole.time() < 0.25 && compared < 3) {
+    const SavedState saved = whole.save();
+    const long before = halvings(whole);
+    advance(whole, 1);
+    if (halvings(whole) == before) continue;
+    Simulation<Host> resumed(p);
+    resumed.restore(saved);
+    advance(resumed, 1);
+    EXPECT_EQ(halvings(resumed), halvings(whole)) << whole.time();
+    EXPECT_TRUE(same_bits(resumed.positions(), whole.positions())) << whole.time();
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+const Point push(0, 0, 0.5);  // velocity of the plane below [m/s]
+
+/// A free cube that a plane meets from below. All its momentum comes from the plane: the plane's
+/// work is the momentum times the plane's velocity, whatever the steps are.
+Problem pushed_cube() {
+  Problem p = small_cube("neo_hookean");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -5e-4}, {0, 0, 1}}, {}, SteadyMotion(push)});
+  return p;
+}
+
+/// What the plane must have done so far [J].
+double work_by_momentum(const Simulation<Host>& s, const Problem& p) {
+  const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
+  const auto v = s.velocities();
+  double sum = 0;
+  for (std::size_t a = 0; a < mass.size(); ++a) sum += mass[a] * push.dot(v[a]);
+  return sum;
+}
+
+// Forces of contact change much from step to step: the work of a short step is that of its own.
+TEST(ShorterSteps, CountTheWorkOfObstaclesWhereARunEndsWithinOne) {
+  const Problem p = pushed_cube();
+  Simulation<Host> s(p);
+  ObstacleWork<Host> work(s, p);
+  for (int n = 0; n < 60; ++n) {
+    s.end_at(s.time() + 0.3 * s.macro_step());
+    advance(s, 1), work.step(s);
+    EXPECT_NEAR(work.done(), work_by_momentum(s, p), 1e-9) << n;
+    s.end_at(std::numeric_limits<double>::infinity());
+    advance(s, 1), work.step(s);
+    EXPECT_NEAR(work.done(), work_by_momentum(s, p), 1e-9) << n;
+  }
+  EXPECT_GT(work.done(), 0.1);
+  EXPECT_TRUE(work.known());
+}
+
+// Steps that are never solved are taken in their shortest parts: the force is the mean over these.
+TEST(ShorterSteps, CountTheWorkOfObstaclesOverAllParts) {
+  Problem p = pushed_cube();
+  p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 4e-3;
+  p.integration.implicit.newton_iterations = 2, p.integration.implicit.newton_tolerance = 1e-9;
+  p.integration.implicit.relative_residual = 1e-9;
+  p.integration.on_failure.halvings = 3;
+  Simulation<Host> s(p);
+  ObstacleWork<Host> work(s, p);
+  double before = 0, wanted = 0, most = 0, off = 0;
+  for (int n = 0; n < 20; ++n) {
+    advance(s, 1), work.step(s);
+    const double done = work.done() - std::exchange(before, work.done()),
+                 want = work_by_momentum(s, p) - std::exchange(wanted, work_by_momentum(s, p));
+    most = std::max(most, std::abs(want)), off = std::max(off, std::abs(done - want));
+  }
+  EXPECT_GT(s.counters().at("step_halvings"), 0);
+  EXPECT_GT(most, 0.01);
+  EXPECT_LT(off, 0.02 * most);
+}
+
+/// A cube whose steps Newton's method never solves: they are taken in parts.
+Problem halved_cube() {
+  Problem p = small_cube("neo_hookean", 2);
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.implicit.newton_iterations = 2, p.integration.implicit.newton_tolerance = 1e-12;
+  p.integration.on_failure.halvings = 3;
+  return p;
+}
+
+// Each part of a step has its own time: given motions end where they must.
+TEST(ShorterSteps, FollowGivenMotionsInTheirOwnTime) {
+  Problem p = halved_cube();
+  const SineMotion motion{{0.02, 0, 0.01}, 3, 0.4};
+  p.body.prescribed = {{left_face(), motion}};
+  p.integration.macro_step = 0.01;
+  Simulation<Host> s(p);
+  const auto& rest = p.body.levels[0].vertices;
+  for (int n = 1; n <= 30; ++n) {
+    advance(s, 1);
+    const auto x = s.positions();
+    const double angle = 2 * std::numbers::pi * motion.frequency * s.time() + motion.phase;
+    const Point at = (std::sin(angle) - std::sin(motion.phase)) * motion.amplitude;
+    for (std::size_t a = 0; a < x.size(); ++a)
+      if (rest[a][0] == 0) {
+        EXPECT_LE((x[a] - rest[a] - at).norm(), 1e-12) << n;
+      }
+  }
+  EXPECT_GT(s.counters().at("step_halvings"), 0);
+}
+
+// A load that grows slowly bends a body as far as it has grown, whatever the steps are.
+TEST(ShorterSteps, SeeLoadsInTheirOwnTime) {
+  Problem p = halved_cube();
+  p.body.fixed = {left_face()};
+  p.body.loads = {
+      {Box{{0.1, -1, -1}, {1, 1, 1}}, TotalForce{{0, 0, 4}}, PolygonCourse{{{0, 0}, {2, 1}}}}};
+  p.integration.macro_step = 0.25;
+  Simulation<Host> halved(p);
+  p.integration.macro_step = 0.25 / 8;
+  p.integration.implicit.newton_iterations = 40, p.integration.implicit.newton_tolerance.reset();
+  Simulation<Host> small(p);
+  for (int n = 1; n <= 8; ++n) {
+    advance(halved, 1), advance(small, 8);
+    ASSERT_NEAR(halved.time(), small.time(), 1e-12);
+    const auto a = displacements(halved, p.body.levels[0]),
+               b = displacements(small, p.body.levels[0]);
+    EXPECT_GT(largest(b), 1e-4 * n);
+    EXPECT_LE(largest_difference(a, b), 0.05 * largest(b)) << n;
+  }
+  EXPECT_GT(halved.counters().at("step_halvings"), 0);
 }
 
 }  // namespace

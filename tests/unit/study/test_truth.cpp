@@ -76,6 +76,19 @@ TEST(RichardsonLimit, SaysWhereItIsNotToBeTrusted) {
   EXPECT_EQ(richardson_limit(same, same, &same, all).used_order, 2) << "no order at all";
 }
 
+// Vertex 0 is where no mesh has an error: its order is 0 / 0
+TEST(RichardsonLimit, TrustsNoOrderThatIsNotANumber) {
+  Trajectory fine = motion(0.1, 2), coarse = motion(0.2, 2), coarsest = motion(0.4, 2);
+  for (Trajectory* each : {&fine, &coarse, &coarsest})
+    for (auto& u : each->u) u[0] = Point(1, 0, 0);
+  for (auto* fields : {&coarsest.u, &coarsest.v})
+    for (auto& field : *fields) field.resize(1);
+  const Limit limit = richardson_limit(fine, coarse, &coarsest, {0});
+  EXPECT_TRUE(std::isnan(*limit.order));
+  EXPECT_GT(limit.correction, 0);
+  EXPECT_EQ(limit.own_error, limit.correction);
+}
+
 TEST(Truth, IsAsUncertainAsWhatItsCheckDoesNotExplain) {
   Truth truth;
   truth.family.own_error = 0.01, truth.check.own_error = 0.02, truth.difference = 0.025,
@@ -83,6 +96,8 @@ TEST(Truth, IsAsUncertainAsWhatItsCheckDoesNotExplain) {
   EXPECT_DOUBLE_EQ(truth.error(), 0.011);
   truth.difference = 0.08;
   EXPECT_DOUBLE_EQ(truth.error(), 0.061);
+  truth.difference = std::nan("");
+  EXPECT_TRUE(std::isnan(truth.error())) << "a check that came to nothing explains nothing";
 }
 
 constexpr double bar_length = 0.4, bar_modulus = 1e4, bar_density = 1000, bar_load = 0.01;

@@ -139,6 +139,24 @@ TEST(Newton, HalvingCompletesWhatAcceptingCompletes) {
   EXPECT_FALSE(halved.check());
 }
 
+// Once a tangent has led upwards, those of the next systems are projected, also in a run that goes
+// on from a saved state.
+TEST(Newton, GoesOnProjectingAfterASavedState) {
+  Problem pulled = hanging("neo_hookean", 0.5);
+  pulled.gravity = {0, 0, -200};
+  for (const Problem& p : {mirrored({0, "accept"}), pulled}) {
+    Simulation<Host> whole(p);
+    for (int n = 0; n < 15; ++n) {
+      Simulation<Host> resumed(p);
+      resumed.restore(whole.save());
+      whole.step(), resumed.step();
+      EXPECT_TRUE(same_bits(whole.positions(), resumed.positions())) << n;
+      EXPECT_EQ(whole.counters(), resumed.counters()) << n;
+    }
+    EXPECT_GT(whole.counters().at("cg_indefinite"), 0) << p.body.material.model;
+  }
+}
+
 // A fall that touches ground in steps as long as the impact: contact sets in without a jump, so
 // that every step is solved.
 TEST(Newton, SolvesAnImpact) {

@@ -10,7 +10,7 @@
 #include "support/backends.hpp"
 
 // The shipped ball scenes, whole, against the finest level alone at a quarter of its critical step.
-// The bounds say what the paper's cycle is worth on its own scene; bench/tables prints the values.
+// The bounds say what the paper's cycle is worth on its own scene.
 namespace {
 
 using namespace plica;

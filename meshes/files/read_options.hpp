@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// Treatment of tetrahedra that cannot be simulated: an InputError, or kept for repair_mesh().
+enum class Flaws { refused, kept };
+
+/// Treatment of second-order tetrahedra. Split: eight linear ones by the nodes on the edges, where
+/// all cells of the file are of this kind. Linear: one by the corners.
+enum class SecondOrder { split, linear };
+
+/// What a user says about a file of tetrahedra.
+struct ReadOptions {
+  Flaws flaws = Flaws::refused;
+  /// name of the array of cells that numbers the regions; empty: the format's own, or an array with
+  /// a usual name; "none": no regions
+  std::string regions = {};
+  std::vector<std::string> leave_out = {};  ///< names or numbers of regions that are left out
+  SecondOrder order = SecondOrder::split;
+};
+
+/// Distance up to which points on the open edges of a surface become one, as a part of the diagonal
+/// of its box. Exporters leave such points at seams of textures and normals.
+inline constexpr double weld_distance = 1e-6;
+
+}  // namespace plica
