@@ -16,7 +16,7 @@ void wait_passively(char** argv) {
   std::error_code none;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", none);
   if (none || setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;
-  execv(self.c_str(), argv);  // where it returns, threads spin
+  execv(self.c_str(), argv);  // returns on failure only; threads spin then
 }
 
 }  // namespace

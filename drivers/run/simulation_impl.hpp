@@ -74,7 +74,6 @@ struct Simulation<B>::Impl {
   long rejected = 0, unsolved = 0;
   std::optional<Snapshot> part_start;  // snapshot at the start of a part, where parts are judged
 
-
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i);
   const Vectors<B>& rest_positions(int i);

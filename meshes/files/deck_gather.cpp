@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/meshes/files/deck_gather.hpp>
+#include <set>
 
 namespace plica {
 
@@ -95,7 +96,13 @@ void DeckGather::choose_sets(ParsedMesh& raw) {
   std::string unused, unused_others;
   std::vector<const Set*> taken = regions(true, cells, region_of, unused),
                           others = regions(false, cells, of_others, unused_others);
-  if (taken.size() < 2 && others.size() >= std::max<std::size_t>(taken.size() + 1, 1))
+  const auto count_regions = [&](const std::vector<std::int64_t>& numbers) {
+    std::set<std::int64_t> used;
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (is_cell(e)) used.insert(numbers[e]);
+    return used.size();
+  };
+  if (taken.empty() || (count_regions(region_of) < 2 && count_regions(of_others) > 1))
     taken = others, region_of = of_others, unused = unused_others;
   if (!unused.empty())
     report_.notes.push_back("element sets that share cells with other regions are no regions: " +

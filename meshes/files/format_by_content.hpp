@@ -6,11 +6,11 @@
 
 namespace plica {
 
-/// What the first bytes of a file say that it is.
+/// Format of a file as its first bytes tell it.
 struct KnownContent {
   std::string extension;    ///< extension of the format in the lists; empty: it cannot be read
   std::string description;  ///< name of the format, such as "VTK's XML format"
-  std::string advice;       ///< what to do with a file that cannot be read
+  std::string advice;       ///< way to a file that can be read, where this one cannot
 
   /// Returns whether a file of this extension is expected to have this content.
   bool names(const std::string& file_extension) const;

@@ -46,7 +46,7 @@ class FebParser {
     const std::string_view version = root.attribute("version").value();
     if (version.empty() || std::string_view("234").find(version.front()) == std::string_view::npos)
       fail(root, "the version is " + shown(version) + "; supported are 2.0 to 4.0");
-    report_.format = "FEBio " + plain(version);
+    report_.format = "FEBio " + printable(version);
     const pugi::xml_node mesh = root.child(version.front() == '2' ? "Geometry" : "Mesh");
     if (!mesh)
       fail(root,
@@ -74,7 +74,7 @@ class FebParser {
   }
   std::string name_of(const pugi::xml_node& part) {
     const std::string name = part.attribute("name").value();
-    if (name.empty()) fail(part, "<" + plain(part.name()) + "> has no name");
+    if (name.empty()) fail(part, "<" + printable(part.name()) + "> has no name");
     return name;
   }
   const ElementKind& kind_of(const pugi::xml_node& part, std::string_view type);
@@ -108,7 +108,7 @@ const ElementKind& FebParser::kind_of(const pugi::xml_node& part, std::string_vi
     if (known.name == lower_case(type)) return known.kind;
     choices.emplace_back(known.name);
   }
-  fail(part, unknown_name("type of elements", plain(type), choices));
+  fail(part, unknown_name("type of elements", printable(type), choices));
 }
 
 // Reads the numbers of a text, between commas or blanks
@@ -136,8 +136,8 @@ std::int64_t FebParser::id_of(const pugi::xml_node& node) {
   const std::string_view text = node.attribute("id").value();
   const auto id = integer_in(text);
   if (!id)
-    fail(node,
-         "the id of <" + plain(node.name()) + "> is " + shown(text) + "; it must be an integer");
+    fail(node, "the id of <" + printable(node.name()) + "> is " + shown(text) +
+                   "; it must be an integer");
   return *id;
 }
 
@@ -192,7 +192,7 @@ void FebParser::faces(const pugi::xml_node& part, int dimension) {
     const ElementKind& kind = kind_of(node, node.name());
     split(node, "a node of a face", corners);
     if (kind.dimension != dimension || corners.size() != static_cast<std::size_t>(kind.vertices))
-      fail(node, "<" + plain(node.name()) + "> of " + shown(name) + " has " +
+      fail(node, "<" + printable(node.name()) + "> of " + shown(name) + " has " +
                      std::to_string(corners.size()) + " nodes; expected " +
                      (kind.dimension == dimension ? std::to_string(kind.vertices)
                       : dimension == 2            ? "a face"
@@ -205,7 +205,7 @@ void FebParser::faces(const pugi::xml_node& part, int dimension) {
 void FebParser::section(const pugi::xml_node& part, bool sets) {
   const std::string_view name = part.name();
   if (name == "Part" || name == "Instance")
-    fail(part, "<" + plain(name) + "> is not read; expected the nodes and elements themselves");
+    fail(part, "<" + printable(name) + "> is not read; expected the nodes and elements themselves");
   if (!sets) {
     if (name == "Nodes") nodes(part);
     if (name == "Elements") elements(part);

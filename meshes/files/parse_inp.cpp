@@ -70,7 +70,7 @@ struct DeckSet {
   std::vector<Part> parts;
   std::vector<std::int64_t> own;  // elements and nodes that were defined with the set's name
   bool has_material = false, internal = false, resolving = false, resolved = false;
-  std::vector<std::int64_t> numbers;  // what all of it comes to, ascending
+  std::vector<std::int64_t> numbers;  // members of the set, ascending
 };
 
 class DeckSets {
@@ -247,7 +247,7 @@ const ElementKind& InpParser::kind_of(const std::string& type) const {
     const std::string rest = name.substr(known.name.size());
     if (rest.empty() || std::isalpha(static_cast<unsigned char>(rest.front()))) return known.kind;
   }
-  lines_.fail(unknown_name("type of elements", plain(type), choices));
+  lines_.fail(unknown_name("type of elements", printable(type), choices));
 }
 
 void InpParser::elements(const Parameters& parameters) {
@@ -288,7 +288,7 @@ void InpParser::set_lines(const Parameters& parameters, const char* key, DeckSet
   if (name == parameters.end() || name->second.empty())
     lines_.expected(std::string("*") + key + ", " + key + "=NAME");
   DeckSet& set = sets[name->second];
-  set.internal |= parameters.contains("INTERNAL");  // of a surface
+  set.internal |= parameters.contains("INTERNAL");  // part of a surface
   if (key == std::string_view("NSET") && parameters.contains("ELSET"))
     set.parts.push_back({{{parameters.at("ELSET")}, lines_.place()}, false, true});
   while (next_data())
@@ -351,7 +351,7 @@ void InpParser::resolve(DeckSet& set, DeckSets& sets, const char* what,
       DeckSets& from = of_elements ? element_sets_ : sets;
       DeckSet* other = from.find(name);
       if (!other || (other->resolving && !other->resolved))
-        refuse(file_, line.place, who + ": " + unknown_name("set", plain(name), from.names()));
+        refuse(file_, line.place, who + ": " + unknown_name("set", printable(name), from.names()));
       if (!of_elements) resolve(*other, sets, what, defined);
       for (const std::int64_t tag : other->numbers)
         if (of_elements)
@@ -378,10 +378,10 @@ void InpParser::add_surface(const DeckSurface& surface) {
       members = {*number};
     else if (const DeckSet* set = sets.find(name))
       members = set->numbers;
-    else if (surface.of_assembly)  // of a point of reference
-      skipped_.insert("*SURFACE " + plain(surface.name));
+    else if (surface.of_assembly)  // set of a point of reference
+      skipped_.insert("*SURFACE " + printable(surface.name));
     else
-      refuse(file_, place, who + ": " + unknown_name("set", plain(name), sets.names()));
+      refuse(file_, place, who + ": " + unknown_name("set", printable(name), sets.names()));
     if (surface.of_nodes) {
       gather_.add_nodes(surface.name, members, place);
       continue;

@@ -87,7 +87,7 @@ NumberType legacy_vtk_type(std::size_t word, const TextLines& lines) {
     if (name == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  lines.fail(unknown_name("type of numbers", plain(name), choices));
+  lines.fail(unknown_name("type of numbers", printable(name), choices));
 }
 
 void skip_vtk_metadata(TextLines& lines) {

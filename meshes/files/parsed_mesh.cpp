@@ -17,13 +17,13 @@ Point RawVectors::at(std::int64_t tag) const {
   return found == place.end() ? Point(Point::Zero()) : values[found->second];
 }
 
-void RawNumbers::add(double value) {
+void RawNumbers::add(double value, const Place& where) {
   if (!wrong.empty()) return;
   constexpr double most = 9e18;  // an integer of 64 bits
   if (std::abs(value) <= most && value == std::floor(value))
     values.push_back(static_cast<std::int64_t>(value));
   else
-    wrong = number(value);
+    wrong = number(value), place = where;
 }
 
 VertexNumbers::VertexNumbers(const ParsedMesh& raw) : raw_(raw) {

@@ -126,9 +126,10 @@ struct RawNumbers {
   std::function<std::string(std::int64_t)> name_of;
   bool own = false;   ///< true: the format has them for regions
   std::string wrong;  ///< first value that is no integer; empty: all are integers
+  Place place = {};   ///< place of that value
 
   /// Adds a value, which may be a real number that is an integer, such as 2.0.
-  void add(double value);
+  void add(double value, const Place& where);
 };
 
 /// Unchecked content of a mesh file, as the parser of any format returns it.

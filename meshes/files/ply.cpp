@@ -103,7 +103,7 @@ NumberType PlyParser::type(std::size_t word) const {
     if (lines_.words()[word] == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  lines_.fail(unknown_name("type of numbers", plain(lines_.words()[word]), choices));
+  lines_.fail(unknown_name("type of numbers", printable(lines_.words()[word]), choices));
 }
 
 void PlyParser::property() {

@@ -12,7 +12,7 @@ enum class Flaws { refused, kept };
 /// all cells of the file are of this kind. Linear: one by the corners.
 enum class SecondOrder { split, linear };
 
-/// What a user says about a file of tetrahedra.
+/// Choices of a user for a file of tetrahedra.
 struct ReadOptions {
   Flaws flaws = Flaws::refused;
   /// name of the array of cells that numbers the regions; empty: the format's own, or an array with

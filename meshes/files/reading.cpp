@@ -46,7 +46,7 @@ std::int64_t LineNumbers::of(std::size_t byte) {
   return line_;
 }
 
-std::string plain(std::string_view input) {
+std::string printable(std::string_view input) {
   const std::string quoted = shown(input);
   return quoted.substr(1, quoted.size() - 2);
 }

@@ -14,7 +14,7 @@ namespace plica {
 std::string lower_case(std::string_view word);
 
 /// Returns input for an error message as shown() does, without quotes.
-std::string plain(std::string_view input);
+std::string printable(std::string_view input);
 
 /// Returns the number that a word is, which may be infinite or NaN; nothing where it is none.
 std::optional<double> number_in(std::string_view word);

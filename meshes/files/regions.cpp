@@ -40,18 +40,18 @@ std::size_t count_cells(const ParsedMesh& raw) {
   return cells;
 }
 
+void refuse_reals(const ParsedMesh& raw, const RawNumbers& numbers) {
+  if (numbers.wrong.empty()) return;
+  refuse(raw.file, numbers.place,
+         shown(numbers.name) + " has the value " + numbers.wrong +
+             "; expected integers, the numbers of regions, or regions: none");
+}
+
 const RawNumbers* wanted_numbers(const ParsedMesh& raw, const std::string& wanted) {
   std::vector<std::string> names;
   for (const RawNumbers& one : raw.numbers) {
-    if (one.name != wanted) {
-      names.push_back(one.name);
-      continue;
-    }
-    if (!one.wrong.empty())
-      refuse(raw.file, {},
-             "the array " + shown(wanted) + " has the value " + one.wrong +
-                 "; expected integers, the numbers of regions");
-    return &one;
+    if (one.name == wanted) return &one;
+    names.push_back(one.name);
   }
   names.emplace_back(no_regions);
   refuse(raw.file, {}, unknown_name("array of cells for the regions", wanted, names));
@@ -95,10 +95,10 @@ int rank_as_regions(const std::string& array) {
 }
 
 void choose_regions(ParsedMesh& raw, const std::string& wanted, MeshReport& report) {
-  if (raw.numbers.empty() && (wanted.empty() || wanted == no_regions)) return;
   if (wanted == no_regions) return;
   const RawNumbers* taken = wanted.empty() ? usual_numbers(raw) : wanted_numbers(raw, wanted);
   if (wanted.empty()) note_choice(raw, taken, report);
+  if (taken) refuse_reals(raw, *taken);
   if (!taken || !has_number(*taken)) return;
   const std::set<std::int64_t> used(taken->values.begin(), taken->values.end());
   if (used.size() >= many_cells && used.size() == count_cells(raw))

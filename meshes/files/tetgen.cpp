@@ -80,8 +80,10 @@ void read_tets(const FileBytes& file, ParsedMesh& raw, MeshReport& report) {
     const Place place = numbers.place();
     std::vector<std::int64_t> vertices(static_cast<std::size_t>(corners));
     for (std::int64_t& v : vertices) v = numbers.integer(integer, "a node of a tetrahedron");
-    for (RawNumbers& column : columns)
-      column.add(numbers.any_number(real, "an attribute of a tetrahedron"));
+    for (RawNumbers& column : columns) {
+      const double value = numbers.any_number(real, "an attribute of a tetrahedron");
+      column.add(value, numbers.place());
+    }
     numbers.end("a tetrahedron");
     add_element(kind, tag, vertices, place, raw, report);
   }

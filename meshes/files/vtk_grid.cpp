@@ -85,7 +85,10 @@ void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::
   RawNumbers array;
   array.name = name;
   const std::string what = "a value of the array " + shown(name);
-  for (std::int64_t i = 0; i < tuples; ++i) array.add(numbers.any_number(type, what));
+  for (std::int64_t i = 0; i < tuples; ++i) {
+    const double value = numbers.any_number(type, what);
+    array.add(value, numbers.place());
+  }
   arrays.push_back(std::move(array));
 }
 

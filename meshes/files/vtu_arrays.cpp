@@ -82,7 +82,7 @@ NumberType vtu_type(const XmlElement& array, const FileBytes& file) {
     if (name == known.name) return known.type;
     choices.emplace_back(known.name);
   }
-  refuse(file.name, array.place, unknown_name("type of numbers", plain(name), choices));
+  refuse(file.name, array.place, unknown_name("type of numbers", printable(name), choices));
 }
 
 std::vector<XmlElement> vtu_elements(const FileBytes& file) {

@@ -174,6 +174,8 @@ const Damage damages[] = {
      "a.yaml:5: body.levels.0.scale: only a file has one"},
     {"MergeWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, merge_duplicates: 0}",
      "a.yaml:5: body.levels.0.merge_duplicates: only a file has one"},
+    {"LeaveOutWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, leave_out: [0]}",
+     "a.yaml:5: body.levels.0.leave_out: only a file has one"},
     {"SurfaceScaleWithoutFile", "subdivisions: 1}", "subdivisions: 1}, scale: 2",
      "a.yaml:8: body.surface.scale: only a file has one"},
     {"NoSurfaceKind", "sphere: {radius: 4 cm, subdivisions: 1}", "boundary: false",

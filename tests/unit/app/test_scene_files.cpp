@@ -329,4 +329,44 @@ TEST_F(ForeignText, FilesWithLatin1Names) {
 }
 
 }  // namespace
+TEST(SceneFiles, RegionsAreTakenAndLeftOut) {
+  const std::string file = sample("blocks_42.vtk");
+  const Scene whole = scene_of(of_files(file));
+  EXPECT_EQ(whole.problem.body.levels[0].region_names,
+            (std::vector<std::string>{"region_1", "region_2"}));
+  EXPECT_TRUE(mentions(whole.warnings, "regions are the array 'region'; not used: 'quality'"));
+  const Scene part = scene_of(of_files(file + ", leave_out: 2"));
+  EXPECT_EQ(part.problem.body.levels[0].region_names, std::vector<std::string>{"region_1"});
+  EXPECT_TRUE(mentions(part.warnings, "of the region region_2 left out"));
+  EXPECT_TRUE(
+      scene_of(of_files(file + ", regions: none")).problem.body.levels[0].region_names.empty());
+  EXPECT_NE(error_of(of_files(file + ", regions: regio")).find("did you mean 'region'?"),
+            std::string::npos);
+  EXPECT_NE(error_of(of_files(file + ", leave_out: [region_3]")).find("unknown region 'region_3'"),
+            std::string::npos);
+}
+
+TEST(SceneFiles, SecondOrderIsSplitUnlessAskedOtherwise) {
+  const std::string file = sample("blocks_order2.msh");
+  const Scene split = scene_of(of_files(file));
+  EXPECT_EQ(split.problem.body.levels[0].tets.size(), 384u);
+  EXPECT_EQ(split.numbering[0].vertex_ids.size(), 113u);
+  EXPECT_TRUE(mentions(split.warnings, "48 second-order tetrahedra split in eight"));
+  EXPECT_EQ(scene_of(of_files(file + ", order: linear")).problem.body.levels[0].tets.size(), 48u);
+}
+
+TEST(SceneFiles, SurfacesAreWelded) {
+  const TemporaryFolder folder;
+  // A tetrahedron, each face with corners of its own
+  std::ofstream(folder / "soup.obj")
+      << "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+         "v 0 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 4 5 6\nf 7 8 9\nf 10 11 12\n";
+  const std::string soup = (folder / "soup.obj").string(),
+                    lattice = "duration: 1\nbody:\n  levels: {surface: " + soup + ", sizes: [0.25]";
+  EXPECT_TRUE(
+      mentions(scene_of(lattice + "}\n").warnings, "8 points on open edges welded to another one"));
+  EXPECT_NE(error_of(lattice + ", weld: 0}\n").find("has no inside: 12 open edges"),
+            std::string::npos);
+}
+
 }  // namespace plica::app::test

@@ -75,7 +75,7 @@ TEST(Inp, CellsOfNoSetAreARegion) {
   const TetMesh shared =
       read_mesh(FileBytes{"m.inp", with(file.bytes, "\"hard\"\n9", "\"hard\"\n9, 7")}, &report);
   EXPECT_EQ(shared.region_names, (Names{"unassigned", "soft"}));
-  EXPECT_TRUE(has_note(report, "are no regions: 'Eall', 'hard'"));
+  EXPECT_TRUE(has_note(report, "are no regions: 'hard'"));
 }
 
 TEST(Inp, BadLinesAreRefused) {
@@ -93,7 +93,7 @@ TEST(Inp, BadLinesAreRefused) {
   refused("7, 1, 2, 30, 40", "9, 1, 2, 30, 40", 15, {"element 9 is defined again", "line 12"});
   refused("7, 1, 2, 30, 40", "7, 1, 2, 30, 41", 12, {"tetrahedron 7 names node 41"});
   refused("soft\n7", "soft\n8", 20, {"the element set 'soft' names element 8"});
-  refused("BASE, 40", "BASIS, 40", 26, {"the node set 'top'", "'BASIS'; did you mean 'base'?"});
+  refused("BASE, 40", "bade, 40", 26, {"the node set 'top'", "'bade'; did you mean 'base'?"});
   refused("BASE, 40", "top, 40", 26, {"the node set 'top'", "'top'"});
   refused("1, 30, 1\n", "1, 30, 0\n", 24, {"'base'", "increment 0"});
   refused("hard, S3", "hard, S5", 29, {"'face'", "'S5' of element 9", "S1 to S4"});
@@ -145,8 +145,10 @@ TEST(Feb, BadElementsAreRefused) {
 TEST(Decks, AnyByteChangedIsRefusedOrSound) {
   const auto read = [](const FileBytes& file) { return read_mesh(file); };
   const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
-  for (const char* name : {"two", "part"}) change_every_byte(deck("inp", name), read, check);
-  for (const char* name : {"two_25", "ten_40"}) change_every_byte(deck("feb", name), read, check);
+  for (const char* name : {"two", "part"})
+    change_every_byte(deck("inp", name), read, check, {',', '9', '*'});
+  for (const char* name : {"two_25", "ten_40"})
+    change_every_byte(deck("feb", name), read, check, {',', '9', '<'});
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(Regions, AnArrayIsTakenByItsName) {
   expect_refused([&] { read(both, {.regions = "kinds"}); }, "m.vtk",
                  {"'kinds'; did you mean 'kind'?", "parts, kind, none"});
   const auto third = [](int cell) { return std::to_string(cell) + ".25"; };
-  expect_refused([&] { read(scalars("x", "double", 48, third), {.regions = "x"}); }, "m.vtk",
+  expect_refused([&] { read(scalars("x", "double", 48, third), {.regions = "x"}); }, "m.vtk:143",
                  {"'x' has the value 0.25; expected integers"});
   MeshReport report;
   read(both, {}, &report);

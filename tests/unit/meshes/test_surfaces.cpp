@@ -254,7 +254,7 @@ TEST(MalformedTetGen, Tetrahedra) {
   expect_refused_ele("2 4 1\n", "1 4 1\n", 3, {"end of the file after 1 tetrahedra"});
   expect_refused_ele("2 4 1\n", "2 4 0\n", 2, {"'5' is too much"});
   expect_refused_ele("2 4 1\n", "2 4\n", 1, {"line ends", "number of attributes"});
-  expect_refused_ele("3 5\n", "3 5.5\n", 2, {"'5.5'", "its region"});
+  expect_refused_ele("3 5\n", "3 5.5\n", 2, {"'attribute' has the value 5.5", "expected integers"});
   expect_refused_ele("1 1 2 3 4 2", "1 1 2 3 9 2", 3, {"tetrahedron 1 names node 9"});
   expect_refused_ele("1 1 2 3 4 2", "1 1 2 3 3 2", 3, {"names a node twice"});
   expect_refused_ele("1 1 2 3 4 2", "1 0 2 3 1 2", 3,
