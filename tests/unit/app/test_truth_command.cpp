@@ -165,8 +165,8 @@ TEST(TruthFile, ReadsBackWhatItWrote) {
   r.meshes = {{"nodal", 0, 1e-5, 0.02, r.trajectory}, {"linear", 1, 1e-4, 0.3, r.trajectory}};
   const auto back = parse_reference(reference_bytes(r, 7), 7);
   ASSERT_TRUE(back && back->truth);
-  EXPECT_EQ(truth_json(*back->truth), truth_json(*r.truth));
-  EXPECT_EQ(meshes_json(back->meshes), meshes_json(r.meshes));
+  EXPECT_EQ(truth_columns().json(*back->truth), truth_columns().json(*r.truth));
+  EXPECT_EQ(mesh_columns().json(back->meshes), mesh_columns().json(r.meshes));
   EXPECT_EQ(back->probes.u, r.probes.u);
   EXPECT_EQ(back->meshes[1].trajectory.v, r.trajectory.v);
   EXPECT_FALSE(parse_reference(reference_bytes(r, 7).substr(0, 900), 7));

@@ -136,7 +136,7 @@ TEST(RepairMesh, FlawsThatReadersRefuseAreRepaired) {
   const FileBytes file{"m.mesh", text};
   EXPECT_THROW(read_mesh(file), InputError);
   MeshReport report;
-  const MeshRepair repair = repair_mesh(read_mesh(file, &report, Flaws::kept));
+  const MeshRepair repair = repair_mesh(read_mesh(file, &report, {.flaws = Flaws::kept}));
   EXPECT_EQ(report.repeated, 1);
   EXPECT_EQ(report.collapsed, 1);
   EXPECT_EQ(repair.flat, 1);
