@@ -142,9 +142,18 @@ TEST(Newton, HalvingCompletesWhatAcceptingCompletes) {
 // Once a tangent has led upwards, those of the next systems are projected, also in a run that goes
 // on from a saved state.
 TEST(Newton, GoesOnProjectingAfterASavedState) {
-  Problem pulled = hanging("neo_hookean", 0.5);
-  pulled.gravity = {0, 0, -200};
-  for (const Problem& p : {mirrored({0, "accept"}), pulled}) {
+  Problem crushed = mirrored({0, "accept"});
+  crushed.body.material.model = "st_venant_kirchhoff";
+  crushed.body.initial.stretch = {0.3, 0.4, 0.5};
+  crushed.integration.macro_step = 0.1;
+  Problem pressed = small_cube("neo_hookean");
+  pressed.body.element = {"nodal"}, pressed.body.material.poisson_ratio = 0.3;
+  pressed.body.loads = {{Box{{-1, -1, -1}, {1, 1, 1}}, FollowerPressure{3e4}, {}}};
+  pressed.integration = crushed.integration;
+  pressed.integration.implicit.solver = "conjugate_gradients";
+  pressed.integration.implicit.preconditioner = "block_jacobi";
+  long upwards = 0;
+  for (const Problem& p : {crushed, pressed}) {
     Simulation<Host> whole(p);
     for (int n = 0; n < 15; ++n) {
       Simulation<Host> resumed(p);
@@ -153,8 +162,9 @@ TEST(Newton, GoesOnProjectingAfterASavedState) {
       EXPECT_TRUE(same_bits(whole.positions(), resumed.positions())) << n;
       EXPECT_EQ(whole.counters(), resumed.counters()) << n;
     }
-    EXPECT_GT(whole.counters().at("cg_indefinite"), 0) << p.body.material.model;
+    upwards += whole.counters().at("cg_indefinite");
   }
+  EXPECT_GT(upwards, 0);
 }
 
 // A fall that touches ground in steps as long as the impact: contact sets in without a jump, so
