@@ -73,7 +73,7 @@ class Bench:
         said = json.loads(self.call("plica_bench", f"--benchmark_filter={names}", f"--benchmark_min_time={0.05 if self.small else seconds}",
                                     "--benchmark_format=json"))
         units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
-        return {re.sub("/min_time.*", "", b["name"]): {"seconds": b["cpu_time"] * units[b["time_unit"]], "share": b.get("fraction_of_limit"),
+        return {re.sub("/(min_time|iterations|repeats).*", "", b["name"]): {"seconds": b["cpu_time"] * units[b["time_unit"]], "share": b.get("fraction_of_limit"),
                                                        "rate": b.get("bytes_per_second") or b.get("flops_per_second")}
                 for b in said["benchmarks"] if not b.get("error_occurred")}
 

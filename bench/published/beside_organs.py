@@ -140,7 +140,7 @@ def measure(bench):
     meshes = []
     file = bench.scratch / "0.msh"
     bench.call("plica", "mesh", "fill", surface, "-o", file, "--size", f"{EDGES[0] if bench.small else EDGES[1]} mm", "--with", "gmsh")
-    bench.call("plica", "mesh", "convert", file, bench.scratch / "plain.msh", "--format", "gmsh_2")
+    bench.call("plica", "mesh", "convert", file, bench.scratch / "plain.msh", "--format", "msh22")
     points, tets = read_gmsh(bench.scratch / "plain.msh")
     meshes = [(points, tets), refined(points, tets)]
     count = len(points)  # of the vertices that all meshes have, the first ones
