@@ -88,7 +88,7 @@ def by_calculix(points, tets, nu, held, folder):
         out.write(f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, {nu}\n*DENSITY\n{DENSITY}\n*SOLID SECTION, ELSET=BODY, MATERIAL=M\n*BOUNDARY\nHELD, 1, 3\n"
                   f"*STEP\n*STATIC\n*DLOAD\nBODY, GRAV, {GRAVITY}, 1, 0, 0\n*NODE PRINT, NSET=ALL\nU\n*END STEP\n")
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(["ccx", str(job)], check=True, capture_output=True, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin:/usr/local/bin"})
+    subprocess.run(["ccx", str(job)], check=True, capture_output=True, cwd=folder, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin:/usr/local/bin"})
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     lines = [line.split() for line in job.with_suffix(".dat").read_text().splitlines()]
     u = numpy.zeros_like(points)
