@@ -3,7 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/run/core_wait.hpp>
+#include <plica/drivers/run/busy_cores.hpp>
 #include <plica/version.hpp>
 
 // plica_step_times SCENE [--set KEY.PATH=VALUE ...] [--threads N] [--precision WORD] [--limit

@@ -15,6 +15,7 @@ class StageTimer {
   explicit StageTimer(const typename B::Exec& exec) : exec_(exec) {}
   bool on = false;
   const typename B::Exec& exec() const { return exec_; }
+  void set_exec(const typename B::Exec& exec) { exec_ = exec; }
   const std::map<std::string, double>& seconds() const { return seconds_; }
 
   /// Runs work() and books its time under "stage level".

@@ -38,7 +38,9 @@ class SimulationOf final : public AnySimulation {
       : scene_(std::move(scene)),
         choice_(choice),
         simulation_(with_choice(scene_->problem, choice)),
-        surface_points_(simulation_.surface_positions().size()) {}
+        surface_points_(simulation_.surface_positions().size()) {
+    simulation_.share_cores();
+  }
 
   std::optional<Diagnosis> advance(double until, long at_most,
                                    const std::function<void()>& between) override {

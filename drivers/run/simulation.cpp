@@ -104,12 +104,15 @@ template <class B>
 void Simulation<B>::step() {
   Impl& s = *impl_;
   s.residual = 0;
+  const Kokkos::Timer timer;
   s.stepped([&] {
     if (s.control.halves() && (s.judges || s.control.divides())) return s.cover(false);
     s.advance(s.time, s.next_span()), s.unsolved += s.left_unsolved() > 0 ? 1 : 0;
     return std::optional<Diagnosis>();
   });
   s.arrive();
+  if (!s.cores) return;
+  if (const auto exec = s.cores->after_step(timer.seconds())) s.hierarchy().clock.set_exec(*exec);
 }
 
 template <class B>

@@ -225,6 +225,12 @@ class Simulation {
   /// Returns stress and volume ratio of a level's elements, computed on the device. Waits.
   ElementFields element_fields(int level = 0) const;
 
+  /// Uses fewer threads from now on while other work takes cores, and more again when they are
+  /// free. Where kernels wait for a thread without a core, fewer threads are faster. Results have
+  /// the same bits. Has no effect on a device, or where the system does not tell which threads wait
+  /// (Linux does). Call steps one after the other, since their wall times are compared.
+  void share_cores();
+
   /// Switches CUDA graphs for launches that repeat from step to step on (the default) or off. Off,
   /// each kernel is launched alone. Results are the same. Has no effect on other back ends.
   void use_graphs(bool on);

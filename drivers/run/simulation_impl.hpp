@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/launch.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/busy_cores.hpp>
 #include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
 #include <plica/drivers/run/motion_commands.hpp>
@@ -73,6 +74,8 @@ struct Simulation<B>::Impl {
   // solved
   long rejected = 0, unsolved = 0;
   std::optional<Snapshot> part_start;  // snapshot at the start of a part, where parts are judged
+
+  std::optional<SharedCores<B>> cores;  // only where cores are shared with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i);

@@ -107,6 +107,11 @@ void Simulation<B>::use_graphs(bool on) {
 }
 
 template <class B>
+void Simulation<B>::share_cores() {
+  if (!impl_->cores) impl_->cores.emplace(impl_->hierarchy().exec());
+}
+
+template <class B>
 void Simulation<B>::time_stages(bool on) {
   impl_->hierarchy().clock.on = on;
 }

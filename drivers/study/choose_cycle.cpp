@@ -197,6 +197,7 @@ class CycleTrials {
     const double until = now_() + left, early = before_touching * choice_.duration;
     try {
       Simulation<B> simulation(coarsest, exec_);
+      simulation.share_cores();
       if (start_.time > 0) {
         const std::size_t vertices = coarsest.body.levels.front().vertices.size();
         simulation.set_state(std::vector<Point>(vertices, start_.u.front()),

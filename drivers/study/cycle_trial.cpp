@@ -65,6 +65,7 @@ TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int s
     const double begun = clock.now();
     Simulation<B> simulation(problem, exec);
     run.set_up_time = clock.now() - begun;
+    simulation.share_cores();  // since the predicted run does so
     if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
     GainInTrial<B> gain(simulation, problem);
     for (int n = 1; n <= steps; ++n) {

@@ -14,7 +14,7 @@
 #include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/cycles/him/advice.hpp>
-#include <plica/drivers/run/core_wait.hpp>
+#include <plica/drivers/run/busy_cores.hpp>
 #include <plica/version.hpp>
 #include <stdexcept>
 
@@ -225,6 +225,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   lock.unlock();
   if (!arguments.quiet) announce(scene, simulation, machine, start);
   for (const std::string& sentence : step_advice(scene, simulation, latest)) warn_of(sentence);
+  simulation.share_cores();
   // free on a host: only a device has to wait between stages
   simulation.time_stages(B::on_host || arguments.time_stages);
   RunEnd end = [&] {

@@ -294,8 +294,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                   : std::string{};
   const std::string waited =
       s.wait_share.value_or(0) > notable_wait
-          ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them",
-                        100 * *s.wait_share)
+          ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
+                        100 * *s.wait_share, s.threads > 1 ? ", fewer threads were tried" : "")
           : "";
   std::vector<std::vector<std::string>> rows = {
       {"simulated",

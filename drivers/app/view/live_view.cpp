@@ -86,6 +86,7 @@ class LiveView {
       if (forces_) forces_(request);
       hands_(request);
     });
+    simulation_.share_cores();
   }
   ~LiveView() { simulation_.set_external_forces(forces_); }
   LiveView(const LiveView&) = delete;
