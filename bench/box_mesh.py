@@ -7,6 +7,16 @@ import random
 CORNERS = [(0, 1, 3), (0, 3, 2), (0, 2, 6), (0, 6, 4), (0, 4, 5), (0, 5, 1)]  # with corner 7, around the cell's diagonal
 
 
+def write_gmsh(file, points, tets):
+    """Gmsh 2.2, ASCII."""
+    with open(file, "w") as out:
+        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
+        out.writelines(f"{a} {float(x)!r} {float(y)!r} {float(z)!r}\n" for a, (x, y, z) in enumerate(points, 1))
+        out.write(f"$EndNodes\n$Elements\n{len(tets)}\n")
+        out.writelines(f"{t} 4 2 0 0 {' '.join(str(a + 1) for a in tet)}\n" for t, tet in enumerate(tets, 1))
+        out.write("$EndElements\n")
+
+
 class BoxMesh:
     """Vertices [m] from the origin to `size`, x slowest, and tetrahedra of positive volume."""
 
@@ -37,13 +47,7 @@ class BoxMesh:
         return {a: part / area for a, part in shares.items()}
 
     def write(self, file):
-        """Gmsh 2.2, ASCII."""
-        with open(file, "w") as out:
-            out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(self.vertices)}\n")
-            out.writelines(f"{a} {x[0]!r} {x[1]!r} {x[2]!r}\n" for a, x in enumerate(self.vertices, 1))
-            out.write(f"$EndNodes\n$Elements\n{len(self.tets)}\n")
-            out.writelines(f"{t} 4 2 0 0 {' '.join(str(a + 1) for a in tet)}\n" for t, tet in enumerate(self.tets, 1))
-            out.write("$EndElements\n")
+        write_gmsh(file, self.vertices, self.tets)
 
 
 class CookMesh(BoxMesh):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the programs that tables are measured with, and formats what comes out."""
+import importlib
 import json
 import os
 import re
+import resource
 import subprocess
 import tempfile
 from pathlib import Path
@@ -22,7 +24,7 @@ class Bench:
 
     def call(self, program, *words, threads=1, limit=None):
         """What a program of the build tree prints. `limit` [s]: a run that takes longer fails."""
-        environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false", "NO_COLOR": "1"}
+        environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false", "GOMP_SPINCOUNT": "1000", "NO_COLOR": "1"}
         command = [str(word) for word in (self.build / "bin" / program, *words)]
         try:
             done = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=ROOT, timeout=limit)
@@ -76,6 +78,20 @@ class Bench:
         return {re.sub("/(min_time|iterations|repeats).*", "", b["name"]): {"seconds": b["cpu_time"] * units[b["time_unit"]], "share": b.get("fraction_of_limit"),
                                                        "rate": b.get("bytes_per_second") or b.get("flops_per_second")}
                 for b in said["benchmarks"] if not b.get("error_occurred")}
+
+
+def installed(name):
+    """The module of that name; None where it, or what it needs, is not installed."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+def cpu_of_programs():
+    """CPU time [s] of all programs that have been called and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def table(heads, rows, left=1):

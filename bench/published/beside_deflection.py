@@ -2,24 +2,14 @@
 """Deflections of clamped beams and of Cook's membrane at rest under an end load beside MuJoCo's, on the same irregular meshes: accuracy, and CPU time
 to it."""
 import csv
-import importlib
 import itertools
-import json
 import math
-import resource
-import sys
 import time
 
-from bench import ROOT, Failed, table
+from bench import Failed, cpu_of_programs, installed, table
+from box_mesh import BoxMesh, CookMesh
 
-sys.path.append(str(ROOT / "bench"))
-from box_mesh import BoxMesh, CookMesh  # noqa: E402
-
-try:
-    mujoco_flex = importlib.import_module("mujoco_flex")
-except ImportError:
-    mujoco_flex = None
-
+mujoco_flex = installed("mujoco_flex")
 SOURCES, SECONDS = ("core", "kernels", "drivers", "bench/mujoco_flex.py", "bench/box_mesh.py"), 420
 YOUNG, DENSITY, NUS = 1e7, 1000.0, (0.3, 0.45, 0.49, 0.4999)  # SI
 
@@ -96,13 +86,12 @@ def plica(bench, case, element, stepper):
                          probes=", ".join(f"{p}: [{x[0]!r}, {x[1]!r}, {x[2]!r}]" for p, x in ends.items()))
     spent = []
     while len(spent) < 3 and sum(spent) < LIMIT / 10:
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        before = cpu_of_programs()
         try:
             summary = bench.run(scene, limit=2 * LIMIT)
         except Failed as error:
             return case.failed(f"Plica, {element}", stepper, str(error))
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        spent.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
+        spent.append(cpu_of_programs() - before)
     if misses := summary["counters"].get("cg_misses"):
         return case.failed(f"Plica, {element}", stepper, f"{misses} linear solves did not converge")
     with open(f"{summary['folder']}/probes.csv", newline="") as file:

@@ -2,16 +2,13 @@
 """A liver that sags at rest, by Plica's elements and by linear and quadratic tetrahedra of felupe and CalculiX: error of the displacement against
 quadratic tetrahedra on a refined mesh, and CPU time to it, on one thread."""
 import itertools
-import resource
 import shutil
 import subprocess
-import sys
 import time
 
-from bench import ROOT, Failed, percent, seconds, table
-
-sys.path.append(str(ROOT / "bench"))
-import surface_error  # noqa: E402
+import surface_error
+from bench import ROOT, Failed, cpu_of_programs, percent, seconds, table
+from box_mesh import write_gmsh
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "meshes/data/organs/liver.vtk"), 300
 YOUNG, DENSITY, GRAVITY, NUS = 1e6, 1050.0, 9.81, (0.45, 0.49)  # so stiff that strains are small and every law is the linear one
@@ -87,24 +84,22 @@ def by_calculix(points, tets, nu, held, folder):
         out.write("*NSET, NSET=HELD\n" + "".join(f"{i + 1},\n" for i in held.nonzero()[0]))
         out.write(f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, {nu}\n*DENSITY\n{DENSITY}\n*SOLID SECTION, ELSET=BODY, MATERIAL=M\n*BOUNDARY\nHELD, 1, 3\n"
                   f"*STEP\n*STATIC\n*DLOAD\nBODY, GRAV, {GRAVITY}, 1, 0, 0\n*NODE PRINT, NSET=ALL\nU\n*END STEP\n")
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = cpu_of_programs()
     subprocess.run(["ccx", str(job)], check=True, capture_output=True, cwd=folder, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin:/usr/local/bin"})
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     lines = [line.split() for line in job.with_suffix(".dat").read_text().splitlines()]
     u = numpy.zeros_like(points)
     for line in lines:
         if len(line) == 4 and line[0].isdigit():
             u[int(line[0]) - 1] = [float(value) for value in line[1:]]
-    return u, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+    return u, cpu_of_programs() - before
 
 
 def by_plica(bench, mesh, element, nu):
     import numpy
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = cpu_of_programs()
     summary = bench.run(SCENE.format(gravity=GRAVITY, mesh=mesh, element=element, young=YOUNG, nu=nu, density=DENSITY, held=HELD), limit=120)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     film = surface_error.Frames(summary["folder"], "volume")
-    return numpy.array(film.points[-1]).reshape(-1, 3) - numpy.array(film.rest).reshape(-1, 3), after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+    return numpy.array(film.points[-1]).reshape(-1, 3) - numpy.array(film.rest).reshape(-1, 3), cpu_of_programs() - before
 
 
 def read_gmsh(file):
@@ -116,15 +111,6 @@ def read_gmsh(file):
     next(line for line in lines if line == "$Elements")
     rows = [[int(v) for v in next(lines).split()] for _ in range(int(next(lines)))]
     return points, numpy.array([row[-4:] for row in rows if row[1] == 4]) - 1
-
-
-def write_gmsh(file, points, tets):
-    with open(file, "w") as out:
-        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
-        out.writelines(f"{i} {x:.15g} {y:.15g} {z:.15g}\n" for i, (x, y, z) in enumerate(points, 1))
-        out.write(f"$EndNodes\n$Elements\n{len(tets)}\n")
-        out.writelines(f"{i} 4 2 0 0 {' '.join(str(a + 1) for a in t)}\n" for i, t in enumerate(tets, 1))
-        out.write("$EndElements\n")
 
 
 def measure(bench):

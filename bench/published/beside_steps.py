@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The time of a step beside other programs, one thread each, interleaved: the same clamped beam, material and step."""
-import importlib
-import json
 import os
-import resource
 import statistics
 import subprocess
-import sys
 from pathlib import Path
 
-from bench import ROOT, table
-
-sys.path.append(str(ROOT / "bench"))
-from box_mesh import BoxMesh  # noqa: E402
+from bench import cpu_of_programs, installed, table
+from box_mesh import BoxMesh
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "bench/mujoco_flex.py", "bench/newton_body.py"), 300
 SIZE, YOUNG, NU, DENSITY, GRAVITY = (0.1, 0.1, 0.25), 1e5, 0.45, 1000.0, -9.81
@@ -39,13 +33,6 @@ SOFA_SCENE = """<Node name="root" dt="{step!r}" gravity="0 0 {gravity}"><Require
 """
 EXPLICIT_SOLVER = '<EulerExplicitSolver symplectic="1"/>'
 IMPLICIT_SOLVER = '<EulerImplicitSolver/><CGLinearSolver iterations="25" tolerance="1e-12" threshold="1e-12"/>'
-
-
-def installed(name):
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        return None
 
 
 class Plica:
@@ -81,11 +68,10 @@ class Sofa:
         return (self.run(1 + self.steps) - self.run(1)) / self.steps
 
     def run(self, steps):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        before = cpu_of_programs()
         subprocess.run([str(self.root / "bin/runSofa"), "-g", "batch", "-n", str(steps), str(self.scene)], check=True, capture_output=True,
                        env={**os.environ, "OMP_NUM_THREADS": "1"})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+        return cpu_of_programs() - before
 
 
 class Inside:

@@ -2,13 +2,9 @@
 """Time steppers on organs with tools: error, tool's impulse and CPU time beside explicit steps on the same mesh."""
 import csv
 import math
-import resource
-import sys
 
-from bench import ROOT, Failed, percent, seconds, table
-
-sys.path.append(str(ROOT / "bench"))
-import surface_error  # noqa: E402
+import surface_error
+from bench import Failed, cpu_of_programs, percent, seconds, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "meshes/data/organs"), 420
 SCENES = {"drop": "liver, dropped", "poke": "liver, poked", "drag": "a tool drawn along a liver", "needle": "a needle pressed in", "grasp": "ventricle, grasped",
@@ -34,14 +30,13 @@ def measure(bench):
         reference = given = None
         for method, settings in METHODS.items():
             row = {"scene": scene, "method": method}
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            before = cpu_of_programs()
             try:
                 said = bench.run(f"drivers/scenes/organs/{scene}.yaml", *settings, limit=60)
             except Failed as error:
                 rows.append({**row, "status": str(error)})
                 continue
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            row |= {"status": said["status"], "cpu": after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, "counters": said["counters"],
+            row |= {"status": said["status"], "cpu": cpu_of_programs() - before, "counters": said["counters"],
                     "chosen": (said.get("choice") or {}).get("cycle"), "tets": said["levels"][0]["tets"]}
             frames, force = surface_error.Frames(said["folder"]), impulse(said["folder"])
             if reference is None:

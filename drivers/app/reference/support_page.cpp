@@ -31,33 +31,21 @@ Each cell is a scene that was set up: a small box on two meshes, of linear eleme
 
 )";
 
-constexpr const char* one_body = R"(duration: 1 s
-body:
-  element: linear
-  levels:
-    - {box: {size: [20 cm, 10 cm, 10 cm], cells: [4, 2, 2]}}
-    - {box: {size: [20 cm, 10 cm, 10 cm], cells: [2, 1, 1]}}
-  fixed: [{half_space: {normal: [1, 0, 0]}}]
-  surface: {boundary: true}
-)";
+/// Returns the keys of a box on two meshes, whose lower face is at a height.
+std::string box_at(const std::string& height) {
+  const auto level = [&](const char* cells) {
+    return fmt::format("{{box: {{size: [20 cm, 10 cm, 10 cm], cells: {}, origin: [0, 0, {}]}}}}",
+                       cells, height);
+  };
+  return fmt::format(
+      "{{element: linear, levels: [{}, {}], fixed: [{{half_space: {{normal: [1, 0, 0]}}}}], "
+      "surface: {{boundary: true}}}}",
+      level("[4, 2, 2]"), level("[2, 1, 1]"));
+}
 
-constexpr const char* two_bodies = R"(duration: 1 s
-bodies:
-  below:
-    element: linear
-    levels:
-      - {box: {size: [20 cm, 10 cm, 10 cm], cells: [4, 2, 2]}}
-      - {box: {size: [20 cm, 10 cm, 10 cm], cells: [2, 1, 1]}}
-    fixed: [{half_space: {normal: [1, 0, 0]}}]
-    surface: {boundary: true}
-  above:
-    element: linear
-    levels:
-      - {box: {size: [20 cm, 10 cm, 10 cm], cells: [4, 2, 2], origin: [0, 0, 101 mm]}}
-      - {box: {size: [20 cm, 10 cm, 10 cm], cells: [2, 1, 1], origin: [0, 0, 101 mm]}}
-    fixed: [{half_space: {normal: [1, 0, 0]}}]
-    surface: {boundary: true}
-)";
+const std::string one_body = "duration: 1 s\nbody: " + box_at("0") + "\n";
+const std::string two_bodies = "duration: 1 s\nbodies: {below: " + box_at("0") +
+                               ", above: " + box_at("101 mm") + "}\n";
 
 constexpr const char* sphere_above = "sphere: {centre: [10 cm, 5 cm, 125 mm], radius: 2 cm}";
 constexpr const char* end_face = "half_space: {point: [199 mm, 0, 0], normal: [-1, 0, 0]}";
@@ -66,7 +54,7 @@ constexpr const char* end_face = "half_space: {point: [199 mm, 0, 0], normal: [-
 struct Setting {
   std::string name;
   std::vector<std::string> values;  ///< "key.path=value"
-  const char* scene = one_body;
+  std::string scene = one_body;
 };
 
 Setting loaded_by(const std::string& load) {
