@@ -44,8 +44,8 @@ std::string box_at(const std::string& height) {
 }
 
 const std::string one_body = "duration: 1 s\nbody: " + box_at("0") + "\n";
-const std::string two_bodies = "duration: 1 s\nbodies: {below: " + box_at("0") +
-                               ", above: " + box_at("101 mm") + "}\n";
+const std::string two_bodies =
+    "duration: 1 s\nbodies: {below: " + box_at("0") + ", above: " + box_at("101 mm") + "}\n";
 
 constexpr const char* sphere_above = "sphere: {centre: [10 cm, 5 cm, 125 mm], radius: 2 cm}";
 constexpr const char* end_face = "half_space: {point: [199 mm, 0, 0], normal: [-1, 0, 0]}";
