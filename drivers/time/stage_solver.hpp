@@ -304,9 +304,10 @@ class StageSolver {
     return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual);
   }
 
-  /// Returns the largest force that moves the body too little to be seen in the step [N].
+  /// Returns the largest force that moves the body too little to be seen in the step [N]. In float
+  /// that is the rounding of displacements: their inertia is no smaller in a shorter step.
   double unseen_force(const IncrementalPotential& p, const ImplicitWeights& w) const {
-    return still * edge_ * p.masses / w.a;
+    return std::max(still, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * edge_ * p.masses / w.a;
   }
 
   /// Goes from a linearised state to the next along Newton's direction, as far as it leads down.
