@@ -32,9 +32,11 @@ def words():
 
 
 def revision():
-    """Of the sources, such as 5644515 or 5644515-dirty; "unknown" without git."""
-    found = subprocess.run(["git", "-C", os.path.dirname(__file__), "describe", "--always", "--dirty"], capture_output=True, text=True)
-    return found.stdout.strip() or "unknown"
+    """Of the sources, such as 5644515 or 5644515-dirty; "unknown" without git. Documents and bench/results do not count."""
+    def git(*words):
+        return subprocess.run(["git", "-C", os.path.dirname(__file__), *words], capture_output=True, text=True).stdout.strip()
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/", ":!/bench/results", ":!/*.md")
+    return (git("describe", "--always") or "unknown") + ("-dirty" if changed else "")
 
 
 def load():

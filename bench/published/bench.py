@@ -100,13 +100,18 @@ def table(heads, rows, left=1):
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
+def number(value, digits=2):
+    """With so many digits, never by a power of ten."""
+    return f"{float(f'{value:.{digits}g}'):,.9g}"
+
+
 def percent(share):
-    return "" if share is None else f"{100 * share:.2g} %"
+    return "" if share is None else f"{number(100 * share)} %"
 
 
 def seconds(time):
     """Such as 14 ms."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if time >= size:
-            return f"{time / size:.3g} {unit}"
-    return f"{time / 1e-9:.3g} ns"
+            return f"{number(time / size, 3)} {unit}"
+    return f"{number(time / 1e-9, 3)} ns"

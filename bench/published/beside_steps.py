@@ -5,7 +5,7 @@ import statistics
 import subprocess
 from pathlib import Path
 
-from bench import cpu_of_programs, installed, table
+from bench import cpu_of_programs, installed, number, table
 from box_mesh import BoxMesh
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "bench/mujoco_flex.py", "bench/newton_body.py"), 300
@@ -132,7 +132,7 @@ def blocks(data):
 
     def cell(case, program):
         spent = at.get((*case, program))
-        return f"{1e3 * statistics.median(spent):.2g}" if spent else "–"
+        return number(1e3 * statistics.median(spent)) if spent else "–"
 
     lines = [[f"{tets:,}", step, *(cell((tets, step), p) for p in programs)] for tets, step in cases]
     versions = ", ".join(f"{name} {version}" for name, version in data["versions"].items()) or "no other program was installed"

@@ -5,7 +5,7 @@ import math
 import shutil
 import statistics
 
-from bench import ROOT, Failed, table
+from bench import ROOT, Failed, number, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers"), 600
 LIVER = ROOT / "meshes/data/organs/liver.vtk"
@@ -89,7 +89,7 @@ def measure(bench):
 def cell(row):
     if row is None or row["factor"] is None:
         return "–"
-    return "diverged" if row["status"] == "diverged" else f"{row['factor']:.2g}"
+    return "diverged" if row["status"] == "diverged" else number(row['factor'])
 
 
 def size_rows(sizes, meshes=("liver.vtk", "by Gmsh", "lattice")):
@@ -117,7 +117,7 @@ def blocks(data):
     bound = ["**largest in real time**", family, *(f"**{largest(sizes, m, t, family)}**" for m in METHODS for t in (1, 2))]
     full = table(heads, [*size_rows(sizes), bound], left=2)
     of_touch = table(["macro steps of 1 ms", "median, ms", "99 % below", "longest"],
-                     [[r["method"], *(f"{1e3 * r[key]:.2g}" for key in ("median", "late", "longest"))] for r in steps if r.get("median")])
+                     [[r["method"], *(number(1e3 * r[key]) for key in ("median", "late", "longest"))] for r in steps if r.get("median")])
     notes = [f"* {r['tets']:,} {r['body']}, {r['method']}: {r['diagnosis']}" for r in sizes if r.get("diagnosis")]
     short = table(heads, [*size_rows(sizes, ("liver.vtk", family)), bound], left=2)
     return {"real_time": "\n\n".join([full, *(["\n".join(notes)] if notes else []),
