@@ -7,13 +7,17 @@ import random
 CORNERS = [(0, 1, 3), (0, 3, 2), (0, 2, 6), (0, 6, 4), (0, 4, 5), (0, 5, 1)]  # with corner 7, around the cell's diagonal
 
 
-def write_gmsh(file, points, tets):
-    """Gmsh 2.2, ASCII."""
+def write_gmsh(file, points, tets, held=()):
+    """Gmsh 2.2, ASCII. `held`: numbers of the vertices of a group of that name."""
     with open(file, "w") as out:
-        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
+        out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
+        if len(held):
+            out.write('$PhysicalNames\n1\n0 1 "held"\n$EndPhysicalNames\n')
+        out.write(f"$Nodes\n{len(points)}\n")
         out.writelines(f"{a} {float(x)!r} {float(y)!r} {float(z)!r}\n" for a, (x, y, z) in enumerate(points, 1))
-        out.write(f"$EndNodes\n$Elements\n{len(tets)}\n")
+        out.write(f"$EndNodes\n$Elements\n{len(tets) + len(held)}\n")
         out.writelines(f"{t} 4 2 0 0 {' '.join(str(a + 1) for a in tet)}\n" for t, tet in enumerate(tets, 1))
+        out.writelines(f"{p} 15 2 1 1 {a + 1}\n" for p, a in enumerate(held, 1 + len(tets)))
         out.write("$EndElements\n")
 
 

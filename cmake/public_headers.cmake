@@ -12,7 +12,7 @@ set(plica_public_headers
   meshes/lattice.hpp meshes/mesh_quality.hpp meshes/organs.hpp meshes/refinement.hpp meshes/reordering.hpp
   meshes/repair_mesh.hpp
   drivers/loads/external_forces.hpp drivers/methods/methods.hpp drivers/run/join_bodies.hpp drivers/run/material_points.hpp
-  drivers/run/registry.hpp drivers/run/simulation.hpp drivers/run/validate.hpp)
+  drivers/run/registry.hpp drivers/run/simulation.hpp drivers/run/validate.hpp drivers/run/wait_passively.hpp)
 set(plica_public_headers_of_files meshes/files/mesh_files.hpp)
 set(plica_public_headers_of_study drivers/study/choose_cycle.hpp drivers/study/stability.hpp drivers/study/study.hpp
   drivers/study/truth.hpp drivers/study/verify.hpp)

@@ -82,6 +82,27 @@ class Archive {
       throw InputError("the saved state is that of another simulation: " + what + " differs");
   }
 
+  /// Names how many things follow. Returns the saved number, or `now` where the task is to save.
+  std::size_t count(std::size_t now) {
+    auto many = static_cast<std::uint64_t>(now);
+    if (task_ == Task::save) return number(many), now;
+    std::memcpy(&many, take(sizeof many), sizeof many);
+    if (many > bytes_->size())
+      throw InputError("the saved state is damaged: a number is too large");
+    return static_cast<std::size_t>(many);
+  }
+
+  /// Begins a part that not every saved state has. Returns whether the saved bytes go on with it;
+  /// `present` says so where the task is to save.
+  bool part(std::uint64_t mark, bool present) {
+    if (task_ == Task::save) return present ? (number(mark), true) : false;
+    std::uint64_t next = 0;
+    if (bytes_->size() - at_ < sizeof next) return false;
+    std::memcpy(&next, bytes_->data() + at_, sizeof next);
+    if (next == mark) at_ += sizeof next;
+    return next == mark;
+  }
+
   /// Names a device field that is carried, which may be empty.
   template <class View>
   void field(const std::string& what, const View& view) {
@@ -115,6 +136,8 @@ class Archive {
   /// counted when it is first named, and not where it is lent.
   std::size_t measured() { return std::exchange(measured_, 0); }
 
+  /// Returns whether the task is to write bytes.
+  bool saving() const { return task_ == Task::save; }
   /// Returns whether what is carried becomes that of another time.
   bool restoring() const { return task_ == Task::restore || task_ == Task::put_back; }
   /// Throws InputError where bytes are left over. Call it after all numbers and fields.

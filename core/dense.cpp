@@ -14,6 +14,7 @@
 #endif
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <plica/core/dense.hpp>
 
@@ -84,7 +85,8 @@ RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vec
 bool LargestRitz::add(double diagonal, double next) {
   if (!diagonal_.empty()) beside_.push_back(next_);
   diagonal_.push_back(diagonal), next_ = next;
-  const bool last = !(next > 1e-12 * std::abs(diagonal));
+  largest_ = std::max(largest_, diagonal);
+  const bool last = !(next > std::min(tolerance_, rounding) * largest_);
   const std::size_t steps = diagonal_.size();
   if (!last && steps < look_at_) return false;
   look_at_ = steps + 1 + steps / 16;

@@ -55,7 +55,11 @@ class LargestRitz {
   double bound() const { return bound_; }
 
  private:
-  double tolerance_, bound_ = 0, next_ = 0;
+  // part of the eigenvalue below which the next entry may be rounding: where no more directions are
+  // left, rounding is blown up by how far motions without stiffness have grown, 1e4 and more. The
+  // residual is then below any tolerance
+  static constexpr double rounding = 1e-3;
+  double tolerance_, bound_ = 0, next_ = 0, largest_ = 0;
   std::vector<double> diagonal_, beside_;
   // number of entries at which the bound is computed next; less often the more there are
   std::size_t look_at_ = 5;

@@ -208,10 +208,25 @@ void describe(V& v, Turn& o) {
 }
 
 template <class V>
+void describe(V& v, FixedVertices& o) {
+  describe(v, o.where);
+  v.at_most_one();
+  v.alternative("along", o.along, ListOf<Name>{{"axis", axis_choices}},
+                "held along these axes alone, free across them; left out: along all");
+  v.alternative("slide", o.slide, NormalOrDirection{},
+                "held along this normal alone, so that they slide across it; normal: that of the "
+                "surface at rest, on the boundary triangles with all their vertices chosen");
+}
+
+template <class V>
 void describe(V& v, PrescribedMotion& o) {
   describe(v, o.where);
   v.one_of();
   describe(v, o.motion);
+  v.alternative(
+      "rotate", o.rotate, Group{},
+      "turns about an axis, by an angle over time; torques are about the same point: left "
+      "out, the centre of the vertices' box");
 }
 
 template <class V>
@@ -300,7 +315,7 @@ void describe(V& v, Body& o) {
   v("fibres", o.material.fibres, Group{}, "of laws with fibres: their directions at rest");
   v("regions", o.regions, Map{},
     "parts with options of their own: volumes of the mesh file, or selections");
-  v("fixed", o.fixed, List{}, "vertices that stay where they are");
+  v("fixed", o.fixed, List{}, "vertices that stay where they are, or slide across a normal");
   v("prescribed", o.prescribed, List{}, "vertices whose motion is given");
   v("loads", o.loads, List{}, "forces from outside");
   v("damping", o.damping, Group{}, "damping");
@@ -349,6 +364,16 @@ void describe(V& v, HimOptions& o) {
 }
 
 template <class V>
+void describe(V& v, RestOptions& o) {
+  v("tolerance", o.tolerance, AutoQuantity{{plain, inside_zero_one}},
+    "forces that are not balanced, over all forces, at which the body is at rest; auto: 1e-5, in "
+    "float 1e-3");
+  v("ramp", o.ramp, AutoQuantity{{duration, positive}},
+    "gravity, and loads without ramp, curve or sine, grow from zero within this time; auto: the "
+    "duration");
+}
+
+template <class V>
 void describe(V& v, FailureOptions& o) {
   v("halvings", o.halvings, AutoCount{0, 10, FailureOptions::automatic},
     "of a macro step that fails, at most; auto: 6 where Newton's method judges it; explicit "
@@ -384,7 +409,8 @@ void describe(V& v, IntegrationOptions& o) {
   v("error_class", o.error_class, Name{"error class", error_classes},
     "of cycle auto: how far from level 0 alone");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}},
-    "auto: 0.9 of the predicted limit; the last step ends at the duration");
+    "auto: 0.9 of the predicted limit, with cycle him 8 critical steps of the finest level, or 4 "
+    "with contact; the last step ends at the duration");
   v("distribution", Shares::Target{o.distribution, o.shares},
     Shares{{"distribution", distributions}}, "how much of the macro step each level integrates");
   describe_stepping(v, o);
@@ -392,6 +418,7 @@ void describe(V& v, IntegrationOptions& o) {
     "how the stresses of body.material.prony go on");
   v("implicit", o.implicit, Group{}, "how implicit levels are solved");
   v("him", o.him, Group{}, "of the cycle him");
+  v("rest", o.rest, Group{}, "of the cycle rest");
   v("on_failure", o.on_failure, Group{},
     "of a macro step: halved, and longer again once it is calm");
 }

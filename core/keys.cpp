@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/core/text.hpp>
@@ -89,15 +90,16 @@ std::string plural_of(const Dimension& dimension) {
 
 std::string unit_of(const Dimension& dimension) {
   if (const Named* named = find_name(dimension)) return named->unit;
-  std::string text;
-  const auto add = [&text](const char* symbol, int exponent) {
+  std::string above, below;
+  const auto add = [&](const char* symbol, int exponent) {
     if (exponent == 0) return;
-    text += (text.empty() ? "" : " ") + std::string(symbol);
-    if (exponent != 1) text += "^" + std::to_string(exponent);
+    std::string& text = exponent > 0 ? above : below;
+    text += (exponent < 0 ? "/" : text.empty() ? "" : "*") + std::string(symbol);
+    if (std::abs(exponent) > 1) text += "^" + std::to_string(std::abs(exponent));
   };
   add("kg", dimension.mass), add("m", dimension.length), add("s", dimension.time),
       add("rad", dimension.angle);
-  return text;
+  return (above.empty() ? "1" : above) + below;
 }
 
 bool Bounds::contains(double value) const {

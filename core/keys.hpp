@@ -42,6 +42,7 @@ std::vector<Choice> linear_solver_choices();   ///< linear solvers of implicit l
 std::vector<Choice> preconditioner_choices();  ///< preconditioners of conjugate gradients, and auto
 std::vector<Choice> matrix_choices();          ///< storage of linear systems, and auto
 std::vector<Choice> tangents();                ///< tangents of the elements in linear systems
+std::vector<Choice> axis_choices();            ///< axes of coordinates
 std::vector<Choice> unsolved_outcomes();  ///< outcomes of steps that Newton's method does not solve
 
 }  // namespace plica
@@ -76,7 +77,7 @@ std::string name_of(const Dimension& dimension);
 /// Returns the name of a dimension in the plural: "pressures", "lengths".
 std::string plural_of(const Dimension& dimension);
 
-/// Returns the unit of a dimension: "Pa", "m", "kg/m^3"; empty for a number.
+/// Returns the unit of a dimension, as scenes take it: "Pa", "m", "kg*m^2/s"; empty for a number.
 std::string unit_of(const Dimension& dimension);
 
 /// Range of a number.
@@ -135,6 +136,17 @@ struct Direction {
   std::string type_text() const { return Vector{plain}.type_text(); }
   std::string to_text(const Point& value) const { return Vector{plain}.to_text(value); }
   void check(const std::string& path, const Point& value) const;
+};
+
+/// The word normal, which is stored as [0, 0, 0], or a direction.
+struct NormalOrDirection {
+  std::string type_text() const { return "normal, or " + Direction{}.type_text(); }
+  std::string to_text(const Point& value) const {
+    return value.isZero(0) ? "normal" : Direction{}.to_text(value);
+  }
+  void check(const std::string& path, const Point& value) const {
+    Vector{plain}.check(path, value);
+  }
 };
 
 /// A whole number.

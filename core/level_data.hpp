@@ -57,6 +57,26 @@ struct PrescribedVertices {
   Indices<B> path;    ///< [count] path that the vertex follows
   Kokkos::View<Path*, typename B::Memory> paths;
   Kokkos::View<PathKnot*, typename B::Memory> knots;
+  /// [paths]; empty: no path is a turn
+  Kokkos::View<TurnAxis*, typename B::Memory> turns;
+  /// [count][3] place at rest from the point that the vertex turns about [m]; empty likewise
+  Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> arm;
+};
+
+/// Vertices that are held along one or two directions, and slide across them; none: no arrays.
+template <class B>
+struct SlidingVertices {
+  int count = 0;
+  Indices<B> vertex;  ///< [count]
+  /// [count] two unit vectors at right angles, along which the vertex is held. Where it is held
+  /// along one, the second is 0
+  Kokkos::View<double* [6], Kokkos::LayoutRight, typename B::Memory> normals;
+  Indices<B> place;  ///< [vertices] number of each vertex in `vertex`; -1: it does not slide
+
+  /// Returns one of the two directions along which a vertex is held.
+  KOKKOS_INLINE_FUNCTION Vec3<double> normal(int i, int which) const {
+    return {normals(i, 3 * which), normals(i, 3 * which + 1), normals(i, 3 * which + 2)};
+  }
 };
 
 /// Forces of a dead load at factor 1.
@@ -127,6 +147,7 @@ struct LevelData {
   Model<B> model;
   State<B> state;
   PrescribedVertices<B> prescribed;
+  SlidingVertices<B> sliding;
   EmbeddedSurface<B> surface;  ///< with contact; on level 0 also for output
 
   Vectors<B> f;  ///< [vertices][3] force at the state about to be integrated [N]

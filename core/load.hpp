@@ -8,7 +8,8 @@
 /// follow the body.
 namespace plica {
 
-/// Force per area at rest, on the boundary triangles with all their vertices chosen.
+/// Force per area at rest, on the chosen boundary triangles: those of a group of triangles, else
+/// those with all their vertices chosen.
 struct Traction {
   Point value = Point::Zero();  ///< [Pa]
 };
@@ -18,14 +19,14 @@ struct TotalForce {
   Point value = Point::Zero();  ///< [N]
 };
 
-/// Pressure on the boundary triangles with all their vertices chosen. It acts against their current
+/// Pressure on the boundary triangles chosen as for a traction. It acts against their current
 /// sides: it turns and grows with them.
 struct FollowerPressure {
   double value = 0;  ///< [Pa]; above 0 it pushes into the body
 };
 
 /// Pressure of a fluid in a cavity: K (volume given - current volume) / volume at rest. The fluid
-/// fills what the boundary triangles with all their vertices chosen enclose on their outer side.
+/// fills what the boundary triangles, chosen as for a traction, enclose on their outer side.
 /// The volume given goes from that at rest, where the time function is 0, to `ratio` times that,
 /// where it is 1.
 struct EnclosedVolume {

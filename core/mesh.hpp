@@ -31,6 +31,9 @@ struct TetMesh {
   std::vector<double> filled = {};
   /// Named vectors, one per tet, such as directions of fibres
   std::map<std::string, std::vector<Point>> tet_vectors = {};
+  /// Named triangles by their vertices, in any orientation; the set of vertices of that name has
+  /// at least those of the triangles
+  std::map<std::string, std::vector<std::array<int, 3>>> triangle_sets = {};
 
   /// Returns the part of a tetrahedron that is body. Its mass, stiffness and energy are this part
   /// of what its volume would have.

@@ -6,8 +6,9 @@ namespace plica {
 
 /// Nodal elements of one mesh (elements `nodal`): constants of the mesh at rest, by rows of
 /// domains. A domain is what one region has around one vertex: a quarter of each of its tetrahedra
-/// there. A vertex between regions has several domains. Neighbours are domains of one region that
-/// share a tetrahedron. With V_t a tetrahedron's volume and N_b its shape functions, these are sums
+/// there. A vertex between regions has several domains. So has one between tetrahedra whose four
+/// vertices have a given motion, and others. Neighbours are domains of one region that share a
+/// tetrahedron. With V_t a tetrahedron's volume and N_b its shape functions, these are sums
 /// over the tetrahedra t of the pair:
 ///
 ///   C_ab = sum V_t/4 grad N_b     w_ab = sum V_t grad N_a . grad N_b
@@ -67,10 +68,11 @@ struct NodalWork {
   Scalars<B> near;  ///< [slots * 8] up to two fields in the order of the slots, x y z 0 each
   /// [slots * 12] for each column j of the stress: Q_0j Q_1j Q_2j, and component j of the field
   Scalars<B> records;
-  /// [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
+  /// [slots * 2] dilatations (volume ratios in most laws) and their changes; empty: pressures are
+  /// not smoothed
   Scalars<B> ratio;
   /// [slots * 2] smoothed pressures and their changes; empty: pressures are not smoothed. Mixed
-  /// pressures follow where there are any, see carried_pressures()
+  /// dilatations follow where there are any, see carried_dilatations()
   Scalars<B> pressure;
   /// [slots * 9] G of the state that tangents are about, see packed(); empty: not stored
   Scalars<B> gradient;

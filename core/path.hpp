@@ -20,6 +20,13 @@ struct Path {
   int first_knot = 0, knots = 0;  ///< place among the knots of all paths
 };
 
+/// Axis of a turn by an angle, which is the x component of a path.
+struct TurnAxis {
+  bool turns = false;   ///< false: the path is a translation, and the other members are not used
+  Vec3<double> axis;    ///< unit vector
+  Mat3<double> before;  ///< rotation at angle 0
+};
+
 /// Displacement and velocity of a path at one time.
 struct PathPoint {
   Vec3<double> displacement;  ///< [m]

@@ -6,6 +6,7 @@
 #include <plica/core/load.hpp>
 #include <plica/core/obstacles.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// Description of a simulation, in SI and without files: the library's whole input. Every struct is
@@ -96,10 +97,33 @@ struct RegionOptions {
   std::optional<FibreOptions> fibres = {};  ///< fibres instead of the body's
 };
 
+/// Vertices that are held: in all directions, or along some, across which they slide freely.
+struct FixedVertices {
+  FixedVertices() = default;
+  /// Holds what a selection chooses in all directions.
+  template <class Where>
+  requires(!std::is_same_v<Where, FixedVertices> &&
+           std::is_constructible_v<Selection, const Where&>) FixedVertices(const Where& chosen)
+      : where(chosen) {}
+
+  Selection where;  ///< chosen vertices
+  /// Axes along which they are held, of axis_choices(); empty: all, unless `slide` is given
+  std::vector<std::string> along = {};
+  /// Normal along which alone they are held: they slide in the plane across it. Its length does not
+  /// matter; [0, 0, 0]: the normal of the surface at rest, of each vertex
+  std::optional<Point> slide = {};
+
+  /// Returns whether the vertices are held along some directions only.
+  bool in_part() const { return !along.empty() || slide.has_value(); }
+};
+
 /// Vertices whose motion is given.
 struct PrescribedMotion {
   Selection where;  ///< chosen vertices
   Motion motion;    ///< motion from where they are at rest
+  /// Turn about an axis, instead of `motion`. Where it names no point on the axis, that is the
+  /// centre of the bounding box of level 0's chosen vertices
+  std::optional<Turn> rotate = {};
 };
 
 /// Damping by mass and damping by stiffness. The first has forces -mass M v. The second has a
@@ -194,7 +218,7 @@ struct Body {
   std::string pressure = "auto";                 ///< pressure of nodal elements, one of pressures()
   MaterialOptions material;                      ///< material where a region has no other
   std::map<std::string, RegionOptions> regions;  ///< regions by name
-  std::vector<Selection> fixed;                  ///< vertices that stay where they are
+  std::vector<FixedVertices> fixed;              ///< vertices that are held where they are
   std::vector<PrescribedMotion> prescribed;      ///< vertices whose motion is given
   std::vector<LoadOptions> loads;                ///< forces from outside
   DampingOptions damping;                        ///< damping of the whole body
@@ -247,6 +271,15 @@ struct FailureOptions {
   std::string unsolved = "accept";
 };
 
+/// Options of the cycle `rest`: equilibrium by load steps.
+struct RestOptions {
+  /// Norm of the forces that are not balanced, over that of all forces, at which a load step is at
+  /// rest; none: 1e-5, in float 1e-3
+  std::optional<double> tolerance;
+  /// Time in which gravity, and loads without a time function, grow from zero [s]; none: 1 s
+  std::optional<double> ramp;
+};
+
 /// Integration of a body in time.
 struct IntegrationOptions {
   /// Constructors and copies, compiled in problem.cpp alone.
@@ -259,9 +292,11 @@ struct IntegrationOptions {
   ~IntegrationOptions();
   /// @}
 
-  std::string cycle = "single";           ///< one of cycle_choices()
-  std::string error_class = "balanced";   ///< class of cycle auto, one of error_classes()
-  std::optional<double> macro_step;       ///< [s]; none: 0.9 of the predicted limit
+  std::string cycle = "single";          ///< one of cycle_choices()
+  std::string error_class = "balanced";  ///< class of cycle auto, one of error_classes()
+  /// [s]; none: 0.9 of the predicted limit. With cycle him 8 critical steps of the finest level, or
+  /// 4 with contact; halved until an inertia fits
+  std::optional<double> macro_step;
   std::string distribution = "critical";  ///< one of distributions()
   /// Shares of the macro step with `custom`, finest first; their sum is 1 to 1e-12
   std::vector<double> shares;
@@ -282,6 +317,7 @@ struct IntegrationOptions {
   std::string relaxation = "exponential";
   ImplicitOptions implicit;   ///< solution of implicit levels
   HimOptions him;             ///< options of the hierarchical inverse mass
+  RestOptions rest;           ///< options of the cycle `rest`
   FailureOptions on_failure;  ///< outcome of a bad macro step
 };
 

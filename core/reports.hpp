@@ -101,6 +101,17 @@ struct Wrench {
   Point torque = Point::Zero();
 };
 
+/// Force and moment by which an entry of body.fixed or body.prescribed acts on the body now: those
+/// that hold its vertices, or move them as given. What holds the body from outside feels the
+/// opposite.
+struct Reaction {
+  std::string set;               ///< name of the entry, see held_names()
+  Point force = Point::Zero();   ///< [N]
+  Point torque = Point::Zero();  ///< moment about `about` [N m]
+  /// Centre of the set's bounding box at rest on level 0, or the point that it turns about [m]
+  Point about = Point::Zero();
+};
+
 /// Pose and velocity of an obstacle with mass.
 struct ToolState {
   std::string obstacle;  ///< name of the obstacle
@@ -150,6 +161,13 @@ struct ElementFields {
 
   std::vector<double> von_mises;  ///< equivalent stress of the Cauchy stress [Pa]
   std::vector<double> J;          ///< volume ratio
+
+  // Empty unless they are asked for:
+
+  /// [rows][6] Cauchy stress xx yy zz xy yz xz, without that of damping [Pa]
+  std::vector<double> stress = {};
+  std::vector<double> pressure = {};             ///< minus a third of the stress's trace [Pa]
+  std::vector<double> principal_stretches = {};  ///< [rows][3] the largest first
 };
 
 }  // namespace plica

@@ -5,7 +5,8 @@
 #include <variant>
 
 /// Parts of a body, chosen at rest and before it is placed, anew on every level. They are vertices,
-/// or the elements whose centroid is there. Choosing nothing on a level is an error.
+/// or the elements whose centroid is there; what is outside by a millionth of the body's size at
+/// most counts as inside. Choosing nothing on a level is an error.
 namespace plica {
 
 /// Selection of what lies in a ball.

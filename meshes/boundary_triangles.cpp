@@ -123,6 +123,16 @@ double surface_area(const TriangleSurface& surface) {
   return sum;
 }
 
+std::vector<double> areas_of_points(const TriangleSurface& surface) {
+  std::vector<double> area(surface.vertices.size(), 0.0);
+  for (const auto& t : surface.triangles) {
+    const Point& p = vertex(surface, t[0]);
+    const double part = (vertex(surface, t[1]) - p).cross(vertex(surface, t[2]) - p).norm() / 6.0;
+    for (const int v : t) area[static_cast<std::size_t>(v)] += part;
+  }
+  return area;
+}
+
 double enclosed_volume(const TriangleSurface& surface) {
   if (surface.vertices.empty()) return 0.0;
   // The origin may be any point; a near one keeps the terms small

@@ -29,6 +29,9 @@ BoundarySurface boundary_surface(const TetMesh& mesh);
 /// Returns the sum of the areas of the triangles [m^2].
 double surface_area(const TriangleSurface& surface);
 
+/// Returns each point's part of the area: a third of every triangle around it [m^2].
+std::vector<double> areas_of_points(const TriangleSurface& surface);
+
 /// Returns the volume that a closed surface encloses [m^3]. It is above zero when the triangles
 /// look outwards.
 double enclosed_volume(const TriangleSurface& surface);

@@ -44,9 +44,9 @@ std::string measures(const MeshSize& size) {
               number(c[0], 4), ", ", number(c[1], 4), ", ", number(c[2], 4), "]");
 }
 
-// Returns the end of the sentence, with the likely cause. A ratio of the lengths of about 100 or
-// 1000 means that a file is in cm or mm and has no scale.
-std::string likely_cause(const MeshSize& finest, const MeshSize& coarse, std::size_t level) {
+// Returns the end of the sentence where a file is in cm or mm and has no scale: the ratio of the
+// lengths is about 100 or 1000. Empty: it is not.
+std::string other_unit(const MeshSize& finest, const MeshSize& coarse, std::size_t level) {
   const double ratio = extent(coarse).norm() / extent(finest).norm();
   const auto said = [](std::size_t of, double scale, const char* unit) {
     return text("; is the file of level ", of, " in ", unit, "? Then its scale is ", number(scale));
@@ -59,6 +59,11 @@ std::string likely_cause(const MeshSize& finest, const MeshSize& coarse, std::si
     if (factor(ratio * scale, 1) < 1.5) return said(level, scale, unit);
     if (factor(ratio / scale, 1) < 1.5) return said(0, scale, unit);
   }
+  return {};
+}
+
+std::string likely_cause(const MeshSize& finest, const MeshSize& coarse, std::size_t level) {
+  if (std::string unit = other_unit(finest, coarse, level); !unit.empty()) return unit;
   if (largest_factor(finest, coarse) < wrong.length && relative_shift(finest, coarse) > wrong.shift)
     return "; the levels must lie at the same place";
   return "; expected meshes of one body, in metres";
@@ -81,12 +86,29 @@ MeshSize mesh_size(const TetMesh& mesh, const std::vector<double>& density) {
     size.centroid += volume / 4 * (at(0) + at(1) + at(2) + at(3));
   }
   if (size.volume > 0) size.centroid /= size.volume;
+  size.edge = std::cbrt(6 * std::sqrt(2.) * size.volume / static_cast<double>(mesh.tets.size()));
   return size;
 }
 
+bool covers_part(const MeshSize& part, const MeshSize& whole) {
+  const auto reach_out = [](const Box& a, const Box& b) {
+    return std::max({0.0, (b.min - a.min).maxCoeff(), (a.max - b.max).maxCoeff()});
+  };
+  const double edge = std::max(part.edge, whole.edge), out = reach_out(whole.box, part.box),
+               more = whole.volume / part.volume;
+  if (reach_out(part.box, whole.box) > out / 2) return false;
+  return (out > 1.5 * edge && more > 1.1) || (out > 0.5 * edge && more > doubtful.volume);
+}
+
 LevelComparison compare_levels(const MeshSize& finest, const MeshSize& coarse, std::size_t level) {
+  const bool no = beyond(wrong, finest, coarse), lacks = covers_part(finest, coarse),
+             part = lacks || covers_part(coarse, finest);
+  if (part && other_unit(finest, coarse, level).empty())
+    return {SameBody::no,
+            text("level ", lacks ? 0 : level, " covers a part of level ", lacks ? level : 0, ": ",
+                 measures(lacks ? finest : coarse), " of ", measures(lacks ? coarse : finest),
+                 "; expected levels of the whole body")};
   if (!beyond(doubtful, finest, coarse)) return {};
-  const bool no = beyond(wrong, finest, coarse);
   return {no ? SameBody::no : SameBody::doubtful,
           text("level ", level,
                no ? " is not the body of level 0: " : " differs from level 0: ", measures(coarse),

@@ -13,6 +13,7 @@ struct MeshSize {
   /// are not compared
   bool around = false;
   double volume = 0;               ///< [m^3]
+  double edge = 0;                 ///< edge of a regular tetrahedron of the mean volume [m]
   double mass = 0;                 ///< [kg]
   Point centroid = Point::Zero();  ///< centre of the volume [m]
 };
@@ -27,8 +28,8 @@ enum class SameBody {
   /// every length within 5 %, volume and mass within 25 %, the centroid within 3 % of the extent
   yes,
   doubtful,  ///< between yes and no, as coarse meshes of round bodies may be
-  /// a length differs by a factor above 2, volume or mass by one above 4, or the centroid by more
-  /// than a quarter of the extent
+  /// a length differs by a factor above 2, volume or mass by one above 4, the centroid by more than
+  /// a quarter of the extent, or one of the two covers a part alone: see covers_part()
   no
 };
 
@@ -39,6 +40,11 @@ struct LevelComparison {
   /// `yes`
   std::string sentence;
 };
+
+/// Returns whether a mesh covers a part of what another one covers: it lies in the other's box,
+/// which reaches further by more than 1.5 edges, and has less than 1/1.1 of its volume; or by more
+/// than half an edge, and has less than 1/1.25. Coarse meshes of round bodies lie in them by less.
+bool covers_part(const MeshSize& part, const MeshSize& whole);
 
 /// Compares a coarse level with the finest: extent along each axis, volume, mass and centroid. A
 /// mesh that was read with the wrong scale, or lies elsewhere, can still be embedded in the finest

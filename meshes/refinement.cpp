@@ -59,6 +59,7 @@ class Refinement {
     finer_.region = of_eight(mesh_.region), finer_.filled = of_eight(mesh_.filled);
     for (auto& [name, vectors] : finer_.tet_vectors) vectors = of_eight(vectors);
     add_middles_to_sets();
+    cut_triangle_sets();
     return std::move(finer_);
   }
 
@@ -123,6 +124,22 @@ class Refinement {
         if (!surface || boundary_edges.contains(edge_key(a, b)))
           set.push_back(static_cast<int>(mesh_.vertices.size() + e));
       }
+    }
+  }
+
+  // Cuts each triangle of a set in four, as the tetrahedra beside it are cut. A triangle that is no
+  // face has no middles, and is dropped.
+  void cut_triangle_sets() {
+    for (auto& [name, set] : finer_.triangle_sets) {
+      std::vector<std::array<int, 3>> finer;
+      for (const auto& [a, b, c] : set) {
+        const auto ab = middles_.find(edge_key(a, b)), bc = middles_.find(edge_key(b, c)),
+                   ca = middles_.find(edge_key(c, a));
+        if (ab == middles_.end() || bc == middles_.end() || ca == middles_.end()) continue;
+        const int i = ab->second, j = bc->second, k = ca->second;
+        finer.insert(finer.end(), {{a, i, k}, {i, b, j}, {k, j, c}, {i, j, k}});
+      }
+      set = std::move(finer);
     }
   }
 

@@ -103,6 +103,10 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     for (int& v : set) v = new_number[static_cast<std::size_t>(v)];
     std::sort(set.begin(), set.end());
   }
+  result.triangle_sets = mesh.triangle_sets;
+  for (auto& [name, set] : result.triangle_sets)
+    for (auto& triangle : set)
+      for (int& v : triangle) v = new_number[static_cast<std::size_t>(v)];
   return result;
 }
 

@@ -332,6 +332,12 @@ void renumber(MeshRepair& repair) {
     set.erase(std::unique(set.begin(), set.end()), set.end());
     std::erase(set, -1);
   }
+  for (auto& [name, set] : mesh.triangle_sets)
+    std::erase_if(set, [&](std::array<int, 3>& triangle) {
+      for (int& v : triangle) v = repair.vertex[static_cast<std::size_t>(v)];
+      const auto& [a, b, c] = triangle;
+      return std::min({a, b, c}) < 0 || a == b || b == c || c == a;
+    });
 }
 
 }  // namespace

@@ -1,27 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
 #include <plica/drivers/app/program.hpp>
-
-namespace {
-
-/// Starts the program again with threads that sleep soon while they wait. By default those of GNU's
-/// OpenMP spin for milliseconds, and keep cores from threads that have work where other programs
-/// are busy. The variable is read when that library is loaded, which is before main().
-void wait_passively(char** argv) {
-  for (const char* own : {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"})
-    if (std::getenv(own)) return;  // the user has chosen, or this is the second start
-  std::error_code none;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", none);
-  if (none || setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;
-  execv(self.c_str(), argv);  // returns on failure only; threads spin then
-}
-
-}  // namespace
+#include <plica/drivers/run/wait_passively.hpp>
 
 int main(int argc, char** argv) {
-  wait_passively(argv);
+  plica::wait_passively(argv);
   return plica::app::program(argc, argv);
 }

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <new>
@@ -100,7 +101,11 @@ class CommandLine {
       std::vector<std::string> known;
       for (const CLI::Option* one : app->get_options())
         for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
-      text = unknown_name("option", option->substr(0, option->find('=')), known);
+      const std::string asked = option->substr(0, option->find('='));
+      text = std::ranges::find(known, asked) == known.end()
+                 ? unknown_name("option", asked, known)
+                 : "'" + asked + "' stands before the command; expected it behind: " + command +
+                       " " + asked;
     } else if (!commands.empty()) {
       text = "expected a command: ";
       for (const CLI::App* one : commands)
@@ -207,6 +212,7 @@ class CommandLine {
         ->add_flag("--truth", study_.truth,
                    "errors against the limit of refined meshes, in space and in time")
         ->excludes(space);
+    command->add_flag("--force", arguments_.force, "replace another study that is in the folder");
     command->add_flag("--growth", study_.growth,
                       "the growth of small motions by each cycle, linearised about rest");
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
@@ -284,6 +290,8 @@ class CommandLine {
     info->add_option("FILE", mesh_.file, "the mesh, or a surface")->required();
     info->add_flag("--json", mesh_.json, "print JSON, in SI units");
     info->add_option("--scale", mesh_.scale, "metres per unit of the file, such as 0.001");
+    add_mesh_choices(info, mesh_.read);
+    add_weld(info, mesh_.read);
     const auto add = [this, info](const std::string& option, const std::string& key,
                                   const std::string& type_text, const std::string& help) {
       info->add_option_function<std::string>(
@@ -299,19 +307,42 @@ class CommandLine {
       };
     });
     add_convert(mesh);
-    add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better", "a mesh",
-               mesh_repair);
-    CLI::App* fill = add_making(mesh, "fill", "make a mesh of a closed surface's inside",
-                                "a closed surface", mesh_fill);
+    add_mesh_choices(
+        add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better",
+                   "a mesh", mesh_repair),
+        make_.read);
+    CLI::App* fill = add_making(
+        mesh, "fill", "make a mesh of a closed surface's inside, or of the labels of an image",
+        "a closed surface; or an image of labels (.nrrd, .nii, .nii.gz, .mha, .vtk)", mesh_fill);
     fill->add_option("--size", make_.size, "its edges, such as 2mm")->required();
+    add_weld(fill, make_.read);
+    fill->add_option(
+        "--leave-out", make_.read.leave_out,
+        "labels of an image that are no body, beside 0: numbers or names, such as 3,5");
     fill->add_option("--with", make_.with,
-                     "gmsh: it fits the surface; lattice: of cubes over it; left out: Gmsh where "
-                     "it is installed")
+                     "of a surface: gmsh fits it; lattice is of cubes over it; left out: Gmsh "
+                     "where it is installed")
         ->check(CLI::IsMember({"gmsh", "lattice"}));
     fill->add_option("--time-limit", make_.time_limit, "stop Gmsh after this time (10 min)");
     CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh",
                                    "a mesh", mesh_coarsen);
     coarsen->add_option("--vertices", make_.vertices, "it has at most, and about")->required();
+    add_mesh_choices(coarsen, make_.read);
+  }
+
+  static void add_mesh_choices(CLI::App* command, ReadArguments& read) {
+    command->add_option("--regions", read.regions,
+                        "array of the file's cells that numbers the regions; none: no regions");
+    command->add_option("--leave-out", read.leave_out,
+                        "regions that are no body: names or numbers, such as 0,7");
+    command->add_option("--order", read.order,
+                        "of second-order tetrahedra: split, in eight; linear, by their corners");
+  }
+
+  static void add_weld(CLI::App* command, ReadArguments& read) {
+    command->add_option("--weld", read.weld,
+                        "points on open edges of a surface at most this part of its box's diagonal "
+                        "apart become one (1e-6); 0: they stay");
   }
 
   CLI::App* add_making(CLI::App* mesh, const std::string& name, const std::string& help,
@@ -336,6 +367,8 @@ class CommandLine {
     convert->add_option("--format", convert_.format, "which one, where the extension has several");
     convert->add_flag("--binary", convert_.binary, "its binary form");
     convert->add_option("--scale", convert_.scale, "all lengths times this, such as 0.001");
+    add_mesh_choices(convert, convert_.read);
+    add_weld(convert, convert_.read);
     convert->add_option("--merge-duplicates", convert_.merge_duplicates,
                         "a distance, such as 1um, after scaling: vertices this close become one");
     convert->footer("Written are\n" + written_formats_text() +
@@ -403,6 +436,10 @@ ExitStatus guarded(const std::vector<std::string>& words) {
     return failed(error.what(), ExitStatus::bad_input);
   } catch (const FolderError& error) {
     return failed(error.what(), ExitStatus::bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(error.path1().string() + ": " + error.code().message() +
+                      "; expected a place that can be read",
+                  ExitStatus::bad_input);
   } catch (const std::bad_alloc&) {
     return failed("memory ran out, of which the process had " + in_bytes(peak_memory()) +
                       "; expected coarser meshes, or a machine with more",

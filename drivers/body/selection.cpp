@@ -66,7 +66,7 @@ std::string described(const Selection& selection) {
 std::vector<int> select(const std::vector<Point>& points, const Selection& selection,
                         const std::string& option, const std::string& what, const Box& all,
                         const std::string& when) {
-  const auto chosen = std::visit(Among{points, 1e-9 * (all.max - all.min).norm()}, selection);
+  const auto chosen = std::visit(Among{points, same_place(all)}, selection);
   if (chosen.empty())
     throw InputError(option + ": " + described(selection) + " selects no " + what +
                      ", which reaches from " + coordinates(all.min) + " to " +
@@ -160,12 +160,40 @@ std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection
   return select(mesh, centroids, selection, who, "element's centroid");
 }
 
+namespace {
+
+std::array<int, 3> ascending(std::array<int, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+/// Returns the boundary triangles that are in a set, whatever their orientation there.
+std::vector<std::array<int, 3>> boundary_triangles_of(const TetMesh& mesh,
+                                                      std::vector<std::array<int, 3>> set,
+                                                      const Selecting& who) {
+  for (auto& triangle : set) triangle = ascending(triangle);
+  std::sort(set.begin(), set.end());
+  std::vector<std::array<int, 3>> chosen;
+  for (const auto& t : boundary_triangles(mesh))
+    if (std::binary_search(set.begin(), set.end(), ascending(t))) chosen.push_back(t);
+  if (chosen.empty())
+    throw InputError(who.option + ": the group has " + std::to_string(set.size()) +
+                     " triangles on level " + std::to_string(who.level) +
+                     ", but none is on the boundary; a traction needs some");
+  return chosen;
+}
+
+}  // namespace
+
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
                                                  const Selecting& who) {
   if (!mesh.filled.empty())
     throw InputError(who.option + ": level " + std::to_string(who.level) +
                      " is a lattice, whose faces are not the body's; expected a force, contact, or "
                      "a mesh that fits");
+  if (const auto* group = std::get_if<GroupSelection>(&selection))
+    if (const auto set = mesh.triangle_sets.find(group->name); set != mesh.triangle_sets.end())
+      return boundary_triangles_of(mesh, set->second, who);
   const std::vector<int> vertices = select_vertices(mesh, selection, who);
   std::vector<char> in(mesh.vertices.size(), 0);
   for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;

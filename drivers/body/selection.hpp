@@ -8,6 +8,12 @@
 
 namespace plica {
 
+/// Returns the distance within which two places count as one, for a body of this size [m]. Files
+/// keep places in single precision, and what is turned into place is rounded.
+constexpr double same_place(double size) { return 1e-6 * size; }
+/// Returns it for the diagonal of a box.
+inline double same_place(const Box& box) { return same_place((box.max - box.min).norm()); }
+
 /// Option that selects, for messages: as a scene names it ("body.fixed.0"), and the level.
 struct Selecting {
   std::string option;
@@ -32,9 +38,10 @@ void expect_without_name(const Selection& selection, const std::string& option);
 std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection,
                                  const Selecting& who);
 
-/// Returns the boundary triangles all of whose vertices a selection chooses; at least one. Throws
-/// InputError where there is none, or no group of that name. Throws it also for a lattice, whose
-/// faces are not the body's.
+/// Returns the boundary triangles that a selection chooses, at least one. These are the triangles
+/// of a group that has some (TetMesh::triangle_sets), else those all of whose vertices are chosen.
+/// Throws InputError where there is none, or no group of that name. Throws it also for a lattice,
+/// whose faces are not the body's.
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
                                                  const Selecting& who);
 

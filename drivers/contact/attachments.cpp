@@ -90,9 +90,10 @@ std::vector<AttachedPoint> attached_points(const std::vector<AttachmentOptions>&
     const std::vector<int> chosen =
         chosen_points(surface, part, part_named(parts, o.body), o.where, path);
     const std::size_t before = all.size();
+    const double reach = o.reach + same_place(bounding_box(surface.vertices));
     for (const int p : chosen) {
       AttachedPoint place{p, static_cast<int>(i), -1, {}};
-      other.nearest(surface.vertices[static_cast<std::size_t>(p)], o.reach, place);
+      other.nearest(surface.vertices[static_cast<std::size_t>(p)], reach, place);
       if (place.triangle < 0) continue;
       int& held = holder[static_cast<std::size_t>(p)];
       if (held >= 0)
@@ -110,7 +111,7 @@ std::vector<AttachedPoint> attached_points(const std::vector<AttachmentOptions>&
     }
     throw InputError(path + ".reach: no point that it chooses of bodies." + o.body + " is within " +
                      number(o.reach, 3) + " m of bodies." + o.to + "; the nearest is " +
-                     number(least, 3) + " m away; expected bodies nearer, or a longer reach");
+                     number(least, 3) + " m away; move the bodies closer, or increase reach");
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <plica/core/time_functions.hpp>
 #include <plica/core/to_device.hpp>
+#include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/contact/contact.hpp>
 #include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/drivers/elastic/materials.hpp>
@@ -374,8 +375,10 @@ void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double e
 template <class B>
 void Contact<B>::grasp(const Exec& exec, const LevelData<B>& level, double time, int obstacle,
                        const ContactRecords<B>& records) const {
-  obstacles_[static_cast<std::size_t>(obstacle)]->grasp(
-      exec, level.surface, level.state, time, obstacle, grasp_options(obstacle)->reach, records);
+  // a point that touches is held, on whichever side rounding puts it
+  const double reach = grasp_options(obstacle)->reach + same_place(deepest_);
+  obstacles_[static_cast<std::size_t>(obstacle)]->grasp(exec, level.surface, level.state, time,
+                                                        obstacle, reach, records);
 }
 
 template <class B>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <plica/drivers/contact/contact_response.hpp>
 #include <plica/drivers/contact/pair_search.hpp>
 #include <plica/kernels/contact/explicit_contact.hpp>
@@ -208,6 +209,27 @@ std::vector<double> ContactResponse<B>::slipping(const Exec& exec) const {
                    sums_);
     const auto counts = host_values(exec, sums_);
     all.push_back(counts[0] > 0 ? counts[1] / counts[0] : 0);
+  }
+  return all;
+}
+
+template <class B>
+std::vector<double> ContactResponse<B>::normal_forces(const Exec& exec) const {
+  exec.fence("plica::normal_forces");
+  const auto item = on_host(records_.list.item);
+  const auto count = on_host(records_.list.count);
+  const auto point = on_host(records_.point);
+  const auto weight = on_host(records_.weight);
+  const auto force = on_host(records_.force), normal = on_host(records_.normal);
+  std::vector<double> all(static_cast<std::size_t>(records_.points), 0.0);
+  for (int i = 0; i < static_cast<int>(count(0)); ++i) {
+    const int r = item(i);
+    double pressing = 0;  // a tie has no normal
+    for (int k = 0; k < 3; ++k)
+      pressing += static_cast<double>(force(r, k)) * static_cast<double>(normal(r, k));
+    for (int c = 0; pressing > 0 && c < 4; ++c)
+      if (const int p = point(r, c); p >= 0)
+        all[static_cast<std::size_t>(p)] += std::abs(static_cast<double>(weight(r, c))) * pressing;
   }
   return all;
 }

@@ -87,6 +87,8 @@ class ContactResponse {
   /// Returns the largest depth in each obstacle, then in pairs [m]. Waits.
   /// See Simulation::contact_depths().
   std::vector<double> depths(const Exec& exec, const LevelData<B>& level, double time) const;
+  /// Returns the sum of the last normal forces at each surface point, without ties [N]. Waits.
+  std::vector<double> normal_forces(const Exec& exec) const;
   /// Grasps the points near an obstacle.
   void grasp(const Exec& exec, const LevelData<B>& level, double time, int obstacle) const {
     contact_->grasp(exec, level, time, obstacle, records_);

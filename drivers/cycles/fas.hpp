@@ -56,6 +56,7 @@ class FasCycle final : public SharedStep<B> {
       update_vertices<B>(
           h.exec(), "plica::restrict", coarse.model.vertices,
           RestrictState<B>{coarse.adjoint, fine.state, coarse.state, coarse.model.inverse_mass});
+      hold_sliding(h.exec(), coarse, coarse.state);
       coarse.start.copy(h.exec(), coarse.state);
     });
   }

@@ -91,10 +91,9 @@ double automatic_macro_step(const IntegrationOptions& o, const std::vector<Level
         " give it in seconds");
   if (!(largest > 0))
     throw InputError(
-        "integration.macro_step is auto, but an integrator of its levels is stable at no step here "
-        "(undamped, euler "
-        "and rk2"
-        " grow at every step); use symplectic_euler, or damp the body (body.damping.mass)");
+        "integration.macro_step is auto, but an integrator of its levels (euler, rk2) is "
+        "unconditionally unstable without damping; use symplectic_euler, or damp the body "
+        "(body.damping.mass)");
   return auto_safety * largest;
 }
 
@@ -110,9 +109,9 @@ int automatic_substeps(const IntegrationOptions& o, const LevelLimits& level, do
 void refuse_unstable(const LevelLimits& level, std::size_t i, double span, int substeps) {
   if (!(level.critical_step > 0))
     throw InputError(text("level ", i, ": integrator '", level.integrator,
-                          "' is stable at no step here: undamped it grows at every step; use "
-                          "symplectic_euler, damp the body"
-                          " (body.damping.mass), or set integration.allow_unstable: true"));
+                          "' is unconditionally unstable without damping; use symplectic_euler, "
+                          "damp the body (body.damping.mass), or set integration.allow_unstable: "
+                          "true"));
   const double step = span / substeps;
   if (step <= level.critical_step * (1 + 1e-9)) return;
   const std::string times = number(step / level.critical_step, 3);

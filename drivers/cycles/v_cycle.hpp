@@ -27,6 +27,7 @@ class VCycle final : public SharedStep<B> {
       if (i > 0)
         map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {},
                                 {}, level.state, {});
+      hold_sliding(h.exec(), level, level.state);
       if (keeps_start) level.start.copy(h.exec(), level.state);
       if (keeps_previous && i + 1 < h.count()) level.previous.copy(h.exec(), level.state);
     }
@@ -68,6 +69,7 @@ class VCycle final : public SharedStep<B> {
     h.clock.time("restrict", i, [&] {
       map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous,
                           coarse.start, coarse.state, coarse.drift_limit);
+      hold_sliding(h.exec(), coarse, coarse.state);
     });
   }
 

@@ -28,10 +28,13 @@ struct Domain {
 };
 
 /// Domains of a mesh, by region, in each region in the order of the vertices.
+/// Tetrahedra whose four vertices have a given motion have domains of their own, behind the others
+/// of their region. Their strain is given, and is no part of what free vertices beside them see.
 class Domains {
  public:
-  explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(4 * mesh.tets.size()) {
-    find_corners();
+  Domains(const TetMesh& mesh, const std::vector<char>& given)
+      : mesh_(mesh), corners_(4 * mesh.tets.size()) {
+    find_corners(given);
     const Grouping corners(corners_, all.size());
     for_row_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t d = begin; d < end; ++d) measure(all[d], corners.of(d));
@@ -44,16 +47,23 @@ class Domains {
   const TetMesh& mesh_;
   std::vector<int> corners_;  ///< [4 tetrahedra] domain of each corner
 
-  void find_corners() {
+  void find_corners(const std::vector<char>& given) {
     const Grouping regions = tets_by_region(mesh_);
     std::vector<int> domain_of(mesh_.vertices.size(), -1);
-    for (std::size_t r = 0; r < regions.groups(); ++r)
-      add_region(static_cast<int>(r), regions.of(r), domain_of);
+    const auto moves = [&](int v) { return given.empty() || !given[index_of(v)]; };
+    for (std::size_t r = 0; r < regions.groups(); ++r) {
+      std::vector<int> tets(regions.of(r).begin(), regions.of(r).end());
+      const auto first_given = std::ranges::stable_partition(tets, [&](int e) {
+                                 return std::ranges::any_of(mesh_.tets[index_of(e)], moves);
+                               }).begin();
+      add_domains(static_cast<int>(r), {tets.begin(), first_given}, domain_of);
+      add_domains(static_cast<int>(r), {first_given, tets.end()}, domain_of);
+    }
   }
 
-  /// Adds the domains of one region.
+  /// Adds the domains of some tetrahedra of one region.
   /// @param domain_of  work array, one per vertex; -1 before and after
-  void add_region(int region, std::span<const int> tets, std::vector<int>& domain_of) {
+  void add_domains(int region, std::span<const int> tets, std::vector<int>& domain_of) {
     std::vector<int> vertices;
     for (const int e : tets)
       for (const int v : mesh_.tets[index_of(e)])
@@ -248,12 +258,13 @@ class SlicedRows {
 }  // namespace
 
 template <class B>
-NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants) {
+NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants,
+                              const std::vector<char>& given) {
   using Real = typename B::Real;
   const auto on_device = [](const char* name, const std::vector<double>& values) {
     return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
   };
-  const std::vector<Domain> domains = Domains(mesh).all;
+  const std::vector<Domain> domains = Domains(mesh, given).all;
   const bool smoothed = !constants.bulk_excess.empty();
   NodalRows<B> rows = SlicedRows<B>(domains).on_device(mesh.vertices.size(), smoothed);
   std::vector<double> material;
@@ -280,7 +291,7 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
 
 #define PLICA_INSTANTIATE(Real, Exec)                                            \
   template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>( \
-      const TetMesh&, const NodalConstants&);                                    \
+      const TetMesh&, const NodalConstants&, const std::vector<char>&);          \
   template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
       const NodalRows<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)

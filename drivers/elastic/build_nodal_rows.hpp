@@ -17,8 +17,10 @@ struct NodalConstants {
 
 /// Returns the rows of a mesh at rest, one for each domain, by region and then by vertex.
 /// Within short windows of this order rows of similar length are put together.
+/// @param given  per vertex: its motion is given; empty: no vertex's is
 template <class B>
-NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants);
+NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants,
+                              const std::vector<char>& given = {});
 
 /// Allocates the work arrays that kernels over these rows need.
 template <class B>

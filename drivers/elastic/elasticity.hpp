@@ -5,6 +5,7 @@
 #include <plica/core/level_data.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/elastic/elements.hpp>
+#include <plica/kernels/elastic/stress_fields.hpp>
 #include <string_view>
 
 namespace plica {
@@ -41,10 +42,15 @@ class Elasticity {
                       const BlockMatrix<B>& A) const = 0;
   /// Computes the elements' elastic energy, into the x components of `partial` [J].
   virtual void energy(const Exec&, const LevelData<B>&, const Vectors<B>& u) const = 0;
-  /// Computes von Mises' stress [Pa] and J.
-  /// Linear elements give a value per tetrahedron of the mesh, nodal elements one per vertex.
+  /// Computes stress and strain: of each tetrahedron of the mesh with linear elements, of each
+  /// vertex with nodal ones.
   virtual void stress(const Exec&, const LevelData<B>&, const Vectors<B>& u,
-                      const Scalars<B>& von_mises, const Scalars<B>& J) const = 0;
+                      const StressFields<B>&) const = 0;
+  /// Computes the mixed dilatations of an implicit stage after a change du of the displacements,
+  /// where u includes du already; see kernels/elastic/mixed_dilatations.hpp. Only for levels whose
+  /// pressures are smoothed.
+  virtual void carry_dilatations(const Exec&, const LevelData<B>&, const Vectors<B>& /*u*/,
+                                 const Vectors<B>& /*du*/) const {}
   /// Advances level.stress.memory by level.stress.step, to the stress of shape of a displacement.
   /// `constants`: the model's constants without a stiffness of the volume. Does nothing for
   /// materials that do not split shape from volume, see ViscousHistory.

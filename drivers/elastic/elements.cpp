@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <plica/core/row_ranges.hpp>
 #include <plica/drivers/elastic/elements.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -36,7 +37,7 @@ double poisson_ratio(const Lame<double>& lame) {
 bool smooths_pressure(const Body& body, const std::vector<Lame<double>>& of_regions) {
   if (body.pressure != "auto") return body.pressure == "smoothed";
   const MaterialInfo* material = find_material(body.material.model);
-  if (!material || !material->with_lambda || !material->rotation_invariant) return false;
+  if (!material || !material->smooths_dilatation) return false;
   return std::ranges::any_of(of_regions,
                              [](const Lame<double>& lame) { return poisson_ratio(lame) > 0.49; });
 }
@@ -59,6 +60,27 @@ double elements_across(const TetMesh& mesh) {
   const double by_volume =
       4 * volume / surface / std::cbrt(6 * volume / static_cast<double>(mesh.tets.size()));
   return std::max(by_volume, (1 + std::sqrt(inside)) / (1 - std::sqrt(inside)));
+}
+
+double part_one_across(const TetMesh& mesh) {
+  constexpr int none = -1, on_surface = -2;
+  std::vector<int> region_of(mesh.vertices.size(), none);
+  for (const int v : boundary_surface(mesh).mesh_vertex) region_of[index_of(v)] = on_surface;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+    for (const int v : mesh.tets[e]) {
+      int& region = region_of[index_of(v)];
+      const int own = mesh.region.empty() ? 0 : mesh.region[e];
+      region = region == none || region == own ? own : on_surface;
+    }
+  double thin = 0, all = 0;
+  for (const auto& t : mesh.tets) {
+    const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[index_of(t[k])]; };
+    const double volume = tet_volume(x(0), x(1), x(2), x(3));
+    all += volume;
+    if (std::ranges::all_of(t, [&](int v) { return region_of[index_of(v)] == on_surface; }))
+      thin += volume;
+  }
+  return thin / all;
 }
 
 }  // namespace plica

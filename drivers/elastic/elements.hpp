@@ -34,6 +34,11 @@ double bending_ratio(Element element, double poisson_ratio, double across);
 /// are inside.
 double elements_across(const TetMesh& mesh);
 
+/// Returns the part of the volume where a body is one element across: in tetrahedra of which every
+/// vertex lies on a surface of its region. It is 1 for a strip of one cell across, at most 0.5 for
+/// boxes of two, and a few hundredths for organs.
+double part_one_across(const TetMesh& mesh);
+
 /// Returns the part of lambda that acts on each domain [Pa]; the rest acts on smoothed volumes.
 inline double capped_lambda(const Lame<double>& c) {
   return c.lambda < 2 * c.mu ? c.lambda : 2 * c.mu;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/body/masses.hpp>
-#include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 
@@ -14,28 +12,11 @@ namespace plica {
 namespace {
 
 void constrain(LevelConstants& c, const Body& body, const TetMesh& mesh, int level) {
-  std::map<int, std::string> motion_of;
-  const auto clash = [&](int v, const std::string& option) {
-    return InputError(option + ": vertex " + std::to_string(v) + " of level " +
-                      std::to_string(level) + " is prescribed by " + motion_of.at(v) +
-                      " too; a vertex has one motion, or is fixed");
-  };
-  c.constrained.assign(mesh.vertices.size(), 0);
-  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
-    const std::string option = "body.prescribed." + std::to_string(i);
-    for (int v : select_vertices(mesh, body.prescribed[i].where, {option, level})) {
-      if (!motion_of.emplace(v, option).second) throw clash(v, option);
-      c.constrained[static_cast<std::size_t>(v)] = 1;
-      c.prescribed_vertex.push_back(v), c.prescribed_motion.push_back(static_cast<int>(i));
-    }
-  }
-  for (std::size_t i = 0; i < body.fixed.size(); ++i) {
-    const std::string option = "body.fixed." + std::to_string(i);
-    for (int v : select_vertices(mesh, body.fixed[i], {option, level})) {
-      if (motion_of.contains(v)) throw clash(v, option);
-      c.constrained[static_cast<std::size_t>(v)] = 1;
-    }
-  }
+  Supports found = find_supports(body, mesh, level);
+  c.constrained = std::move(found.constrained), c.sliding = std::move(found.sliding);
+  c.prescribed_vertex = std::move(found.prescribed_vertex),
+  c.prescribed_motion = std::move(found.prescribed_motion);
+  c.held = std::move(found.sets);
 }
 
 /// Returns the mass damping of each vertex [1/s]; one entry where it is the same everywhere.

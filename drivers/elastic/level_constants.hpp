@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
+#include <plica/drivers/body/supports.hpp>
 #include <plica/drivers/elastic/elements.hpp>
 #include <plica/drivers/elastic/fibres.hpp>
 #include <plica/drivers/elastic/viscosity.hpp>
@@ -25,7 +26,11 @@ struct LevelConstants {
   std::vector<double> stiffness_damping;  ///< per region [s]; empty where there is none
   /// per vertex [kg], a quarter of each of its tetrahedra
   std::vector<double> mass;
-  std::vector<char> constrained;       ///< per vertex: its motion is given
+  std::vector<char> constrained;       ///< per vertex: all of its motion is given
+  std::vector<SlidingVertex> sliding;  ///< vertices that are held in part
+  std::vector<HeldSet> held;           ///< entries of body.fixed, then those of body.prescribed
+  /// [body.prescribed] points that sets turn about, in the placed body; see build_hierarchy() [m]
+  std::vector<Point> turned_about;
   std::vector<int> prescribed_vertex;  ///< vertices that follow a given motion
   std::vector<int> prescribed_motion;  ///< index of the body's motion that each of these follows
   /// velocity per free vertex at the start of level 0; 0 on other levels [m/s]

@@ -47,8 +47,8 @@ class LinearElasticity final : public Elasticity<B> {
     elastic_energy<B, Material>(exec, level.model.patches, u, level.partial);
   }
   void stress(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
-              const Scalars<B>& von_mises, const Scalars<B>& J) const override {
-    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.relaxed);
+              const StressFields<B>& fields) const override {
+    elastic_stress<B, Material>(exec, level.model.patches, u, fields, level.stress.relaxed);
   }
   void accept_state(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                     const Scalars<B>& constants) const override {

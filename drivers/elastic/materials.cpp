@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <numbers>
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
@@ -70,6 +69,7 @@ MaterialInfo describe_material() {
       return as_list(M::with_lambda(constants_of<M>(values), lambda));
     };
   if constexpr (requires { M::splits_shape; }) info.with_shape = constants_with_shape<M>;
+  info.smooths_dilatation = smooths_dilatation<M>;
   info.of_tissue = IsochoricLaws::has<M>;
   info.has_fibres = requires { M::has_fibres; };
   info.has_terms = requires { M::has_terms; };
@@ -148,7 +148,7 @@ void check_structure(const MaterialInfo& info, const std::string& path,
   if (fibres->around && (fibres->sheet || !fibres->sheet_field.empty()))
     throw InputError(path +
                      "fibres.sheet: fibres around a line have their sheets on cylinders about it; "
-                     "expected none");
+                     "remove this key");
   if (fibres->sheet && !fibres->sheet_field.empty())
     throw InputError(path + "fibres.sheet is given twice: as sheet and as sheet_field");
   if (fibres->from.has_value() != fibres->to.has_value())
@@ -222,7 +222,7 @@ void check_tissue(const MaterialInfo& info, const Body& body) {
   const std::string name(info.name);
   if (m.volume && !info.of_tissue)
     throw InputError("body.material.volume is " + *m.volume + "; " + name +
-                     " has its own, expected none");
+                     " has its own; remove this key");
   if (m.convention && !info.has_terms)
     throw InputError("body.material.convention is " + *m.convention + "; only ogden has one");
   check_structure(info, "body.", m.terms, m.fibres);
@@ -351,66 +351,6 @@ bool allows_inversion(const MaterialOptions& material) {
 bool recovers(std::string_view material) {
   const MaterialInfo* info = find_material(material);
   return info != nullptr && info->recovers;
-}
-
-namespace {
-
-constexpr double kPa = 1e3, degree = std::numbers::pi / 180;
-
-/// Tissue whose values two sources agree on.
-/// Both sources assume incompressible tissue; bulk_modulus here is at least 50 times mu at rest.
-struct Tissue {
-  Choice name;
-  std::string model;
-  std::map<std::string, double> parameters;
-};
-
-const std::vector<Tissue>& list() {
-  static const std::vector<Tissue> all = {
-      {{"heart_muscle",
-        "costa: a 2 kPa, b_ff 8, across 2, fibre and cross 4; needs body.fibres. "
-        "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1; read in the input of "
-        "FEniCSx-pulse, not in the "
-        "paper"},
-       "costa",
-       {{"a", 2 * kPa},
-        {"b_ff", 8},
-        {"b_ss", 2},
-        {"b_nn", 2},
-        {"b_sn", 2},
-        {"b_fs", 4},
-        {"b_fn", 4},
-        {"bulk_modulus", 400 * kPa}}},
-      {{"artery_adventitia",
-        "holzapfel_gasser_ogden: c 7.64 kPa, k1 996.6 kPa, k2 524.6, kappa 0.226, angle 49.98 deg; "
-        "needs body.fibres: axis around the artery, sheet along it. "
-        "Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006; read in the input of "
-        "svFSI-Tests, not in the paper"},
-       "holzapfel_gasser_ogden",
-       {{"c", 7.64 * kPa},
-        {"k1", 996.6 * kPa},
-        {"k2", 524.6},
-        {"kappa", 0.226},
-        {"angle", 49.98 * degree},
-        {"bulk_modulus", 15000 * kPa}}}};
-  return all;
-}
-
-}  // namespace
-
-std::vector<Choice> tissues() {
-  std::vector<Choice> all;
-  for (const Tissue& one : list()) all.push_back(one.name);
-  return all;
-}
-
-MaterialOptions tissue_material(std::string_view name) {
-  const auto found = std::ranges::find(
-      list(), name, [](const Tissue& one) { return std::string_view(one.name.name); });
-  if (found == list().end()) throw InputError(unknown_name("tissue", name, names(tissues())));
-  MaterialOptions m;
-  m.model = found->model, m.parameters = found->parameters, m.tissue = name;
-  return m;
 }
 
 }  // namespace plica

@@ -27,7 +27,8 @@ struct MaterialInfo {
   /// Null where the material does not split shape from volume.
   std::vector<double> (*with_shape)(const std::vector<double>& values, double share,
                                     double bulk) = nullptr;
-  bool of_tissue = false;  ///< true: TissueSettings follow the parameters' values
+  bool smooths_dilatation = false;  ///< true: nodal elements can smooth its pressures
+  bool of_tissue = false;           ///< true: TissueSettings follow the parameters' values
   bool has_fibres = false;
   bool has_terms = false;
 };

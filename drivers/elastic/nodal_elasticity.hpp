@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/elastic/elasticity.hpp>
 #include <plica/kernels/elastic/kept_tangents.hpp>
+#include <plica/kernels/elastic/mixed_dilatations.hpp>
 #include <plica/kernels/elastic/record_stress.hpp>
 
 namespace plica {
@@ -51,8 +52,15 @@ class NodalElasticity final : public Elasticity<B> {
     nodal_energy<B, Material>(exec, level, u);
   }
   void stress(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
-              const Scalars<B>& von_mises, const Scalars<B>& J) const override {
-    nodal_stress<B, Material>(exec, level, u, von_mises, J);
+              const StressFields<B>& fields) const override {
+    nodal_stress<B, Material>(exec, level, u, fields);
+  }
+  void carry_dilatations([[maybe_unused]] const Exec& exec,
+                         [[maybe_unused]] const LevelData<B>& level,
+                         [[maybe_unused]] const Vectors<B>& u,
+                         [[maybe_unused]] const Vectors<B>& du) const override {
+    if constexpr (smooths_dilatation<Material>)
+      plica::carry_dilatations<B, Material>(exec, level, u, du);
   }
   void accept_state(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                     const Scalars<B>& constants) const override {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <plica/core/time_functions.hpp>
 #include <plica/core/to_device.hpp>
+#include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/elastic/build_nodal_rows.hpp>
 #include <plica/drivers/elastic/build_patches.hpp>
 #include <plica/drivers/elastic/materials.hpp>
@@ -25,6 +26,35 @@ PrescribedVertices<B> prescribed_vertices(const LevelConstants& c, const std::ve
   return p;
 }
 
+Path angle_path(const Turn& turn, std::vector<PathKnot>& knots) {
+  return make_path(angle_of({.axis = Point::UnitX(), .angle = turn.angle}), knots);
+}
+
+TurnAxis turn_axis(const std::optional<Turn>& turn) {
+  if (!turn) return {};
+  const Point axis = turn->axis.normalized();
+  return {true, {axis[0], axis[1], axis[2]}, rotation_by(turn->rotation)};
+}
+
+template <class B>
+SlidingVertices<B> sliding_vertices(const LevelConstants& c) {
+  SlidingVertices<B> s;
+  s.count = static_cast<int>(c.sliding.size());
+  if (s.count == 0) return s;
+  std::vector<int> vertex, place(c.mass.size(), -1);
+  std::vector<std::array<double, 6>> normals;
+  for (const SlidingVertex& one : c.sliding) {
+    place[static_cast<std::size_t>(one.vertex)] = static_cast<int>(vertex.size());
+    vertex.push_back(one.vertex);
+    const auto& [a, b] = one.normals;
+    normals.push_back({a[0], a[1], a[2], b[0], b[1], b[2]});
+  }
+  s.vertex = to_device<Indices<B>>("sliding.vertex", vertex);
+  s.normals = to_device<decltype(s.normals)>("sliding.normals", normals);
+  s.place = to_device<Indices<B>>("sliding.place", place);
+  return s;
+}
+
 template <class B>
 void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants,
                          const LevelConstants& c, BesideNodal beside) {
@@ -34,7 +64,7 @@ void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants 
   if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
   if (beside == BesideNodal::matrix) return;
   constants.bulk_excess.clear();
-  model.float_rows = build_nodal_rows<F>(placed, constants);
+  model.float_rows = build_nodal_rows<F>(placed, constants, c.constrained);
   if (!c.fibres.empty())
     model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
 }
@@ -54,7 +84,7 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
       constants.stabiliser.push_back(body.stabilisation * lame.mu);
       if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
     }
-    model.rows = build_nodal_rows<B>(placed, constants);
+    model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
@@ -88,16 +118,36 @@ LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelCon
   }
   std::vector<PathKnot> knots;
   std::vector<Path> paths;
-  for (const PrescribedMotion& given : body.prescribed)
-    paths.push_back(make_path(given.motion, knots));
+  std::vector<TurnAxis> turns;
+  for (const PrescribedMotion& given : body.prescribed) {
+    paths.push_back(given.rotate ? angle_path(*given.rotate, knots)
+                                 : make_path(given.motion, knots));
+    turns.push_back(turn_axis(given.rotate));
+  }
   level.prescribed = prescribed_vertices<B>(c, paths, knots);
+  std::vector<std::array<double, 3>> arms;
   for (std::size_t i = 0; i < c.prescribed_vertex.size(); ++i) {
-    const auto v = static_cast<std::size_t>(c.prescribed_vertex[i]);
+    const auto v = static_cast<std::size_t>(c.prescribed_vertex[i]),
+               motion = static_cast<std::size_t>(c.prescribed_motion[i]);
+    Point arm = Point::Zero();
+    if (turns[motion].turns) arm = placed.vertices[v] - c.turned_about[motion];
+    arms.push_back({arm[0], arm[1], arm[2]});
     const PathPoint at =
-        path_at(paths[static_cast<std::size_t>(c.prescribed_motion[i])], knots.data(), 0);
+        given_step(paths[motion], knots.data(), turns[motion], {arm[0], arm[1], arm[2]}, 0, 0);
     for (int k = 0; k < 3; ++k)
       displacement[v][k] = at.displacement[k], velocity[v][k] = at.velocity[k];
   }
+  if (std::ranges::any_of(turns, &TurnAxis::turns)) {
+    PrescribedVertices<B>& given = level.prescribed;
+    given.turns = to_device<decltype(given.turns)>("prescribed.turns", turns);
+    given.arm = to_device<decltype(given.arm)>("prescribed.arm", arms);
+  }
+  level.sliding = sliding_vertices<B>(c);
+  for (const SlidingVertex& one : c.sliding)
+    for (const Point& normal : one.normals) {
+      Point& v = velocity[static_cast<std::size_t>(one.vertex)];
+      v -= normal.dot(v) * normal;
+    }
   const std::vector<Real> damping(c.mass_damping.begin(), c.mass_damping.end());
   level.model.damping.everywhere = damping.front();
   if (damping.size() > 1)

@@ -29,11 +29,16 @@ class Integrator {
   /// Returns why the result of the last advance() is not valid, as a sentence for the user; empty
   /// where it is valid.
   virtual std::string failure() const { return {}; }
+  /// Returns the vertex at which the last advance() failed most; -1: none is known.
+  virtual int failed_vertex() const { return -1; }
   /// Forgets what is carried from earlier steps, which does not belong to a state that was
   /// replaced.
   virtual void reset_history() {}
   /// Names the integrator's arrays and what it carries from one macro step to the next.
   virtual void name_fields(Archive<B>&) {}
+  /// Names the part of that which reset_history() keeps. It goes back with a state that the
+  /// integrator has been in: steps that are taken again begin as they did the first time.
+  virtual void name_memory(Archive<B>&) {}
 };
 
 }  // namespace plica

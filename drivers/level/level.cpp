@@ -11,6 +11,7 @@
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/vectors.hpp>
+#include <utility>
 
 namespace plica {
 
@@ -26,13 +27,18 @@ template <class B>
 void Level<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                           std::shared_ptr<const Contact<B>> contact, bool implicit) {
   elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
-  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
+  set_gravity(gravity);
   if (contact_) response_ = ContactResponse<B>(contact_, *this, implicit);
   const NodalRows<B>& rows = this->model.rows;
   // not with smoothed pressures, which need both fields once more
   if (implicit && rows.slices > 0 && rows.bulk_excess.extent(0) == 0)
     this->nodal.gradient =
         zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));
+}
+
+template <class B>
+void Level<B>::set_gravity(const Point& gravity) {
+  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
 }
 
 template <class B>
@@ -99,6 +105,7 @@ void Level<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force
     response_.add_forces(exec(), *this, at, time, step, force);
     if (weight > 0) response_.add_impulse(exec(), *this, at, time, weight);
   });
+  hold_sliding(exec(), *this, force);
 }
 
 template <class B>
@@ -112,6 +119,20 @@ void Level<B>::evaluate_without_contact(const State<B>& at, double time, const V
   for (const auto& term : terms) term->add_force(exec(), at, time, force);
   if (external_) timed("external", [&] { ask_caller(at, time, 0, 0, force); });
   add_correction(force);
+  hold_sliding(exec(), *this, force);
+}
+
+template <class B>
+void Level<B>::measure_forces(double time, const Vectors<B>& force) {
+  const ElementFlags<B> kept = std::exchange(this->flags, {});
+  if (viscosity) viscosity->prepare_at(exec(), *this, time);
+  elasticity_->force(exec(), *this, this->state, evaluation_);
+  if (viscosity) add_relaxed_force<B>(exec(), *this, this->state.u);
+  this->flags = kept;
+  gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
+  for (const auto& term : terms) term->add_force(exec(), this->state, time, force);
+  add_correction(force);
+  if (contact_) response_.add_last_forces(exec(), *this, force);
 }
 
 template <class B>

@@ -34,6 +34,9 @@ class Level : public LevelData<B> {
   void set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                   std::shared_ptr<const Contact<B>> contact, bool implicit);
 
+  /// Sets the acceleration of everything that is free from now on [m/s^2].
+  void set_gravity(const Point& gravity);
+
   std::vector<std::unique_ptr<ForceTerm<B>>> terms;  ///< see make_force_terms()
   std::unique_ptr<Integrator<B>> integrator;
   std::unique_ptr<Viscosity<B>> viscosity;  ///< only with viscous materials
@@ -48,13 +51,18 @@ class Level : public LevelData<B> {
     if (viscosity) viscosity->accept_state(exec(), *this, *elasticity_, this->state.u, time);
   }
 
-  /// Computes f = all forces on a state of this level at a time [s]. `step`: how contact is taken,
+  /// Computes f = all forces on a state of this level at a time [s], without those along directions
+  /// that hold sliding vertices; so do the other evaluations. `step`: how contact is taken,
   /// by default that of a state that stays. `weight`: how long the forces act [s], for the impulse
   /// of the obstacles.
   void evaluate(const State<B>& state, double time, const Vectors<B>& f,
                 const ContactStep& step = {}, double weight = 0);
   /// Computes f = all forces without contact on a state of this level at a time [s].
   void evaluate_without_contact(const State<B>& state, double time, const Vectors<B>& f);
+  /// Computes f = all forces on the level's state at a time [s], on held vertices, too. For reports
+  /// between steps: it counts as no evaluation and marks no inverted element. Contact's forces are
+  /// those of its last evaluation, and a caller's are left out.
+  void measure_forces(double time, const Vectors<B>& f);
   /// Adds the last evaluation's contact force for `weight` more [s] to the impulse of the
   /// obstacles. The evaluation was at the level's state.
   void add_last_impulse(double time, double weight) const {

@@ -56,6 +56,7 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system,
   const int product = preconditioner ? cg::product : cg::square;
   if (preconditioner) {
     preconditioner->apply(exec, r, z_);
+    system.hold(exec, z_);
     dot<B>(exec, "plica::cg_product", r, z_, sums_, slot(product));
   }
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});

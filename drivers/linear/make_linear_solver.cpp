@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <limits>
 #include <plica/core/error.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/elastic/elements.hpp>
@@ -8,6 +9,7 @@
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/spaces/coarse_spaces.hpp>
 
 namespace plica {
@@ -84,7 +86,7 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
 }
 
 /// Returns true where Newton's systems are solved to a residual of a hundredth.
-/// They are not with mixed pressures, nor where the options ask for a smaller residual.
+/// They are not with mixed dilatations, nor where the options ask for a smaller residual.
 bool solves_loosely(const Problem& problem, std::size_t level) {
   if (problem.integration.implicit.relative_residual < ImplicitOptions().relative_residual)
     return false;
@@ -143,8 +145,9 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   if (o.preconditioner == "auto" || asked) {
     // for a level without a coarser one, too, where other levels have one
     o.preconditioner = BlockJacobi::name;
-    const double over =
+    double over =
         critical_step > 0 ? problem.integration.macro_step.value_or(0) / critical_step : 0;
+    if (seeks_rest(problem.integration)) over = std::numeric_limits<double>::infinity();
     const double least = solves_loosely(problem, level) ? long_newton_step : long_step;
     const bool pays = body.levels.size() == 1 ? over > least : level + 1 < body.levels.size();
     if (multigrid && (asked || (pays && !fixed))) add_multigrid(parts, body, level, asked);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/linear/stage_system.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
+#include <plica/kernels/linear/hold_system.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -52,7 +54,15 @@ InvertBlocks<B> StageSystem<B>::inverting(const Blocks<B>& blocks) const {
 }
 
 template <class B>
+void StageSystem<B>::hold(const Exec& exec, const Vectors<B>& x) const {
+  hold_sliding(exec, *level_, x);
+}
+
+template <class B>
 void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
+  if (level_->sliding.count > 0)
+    update_vertices<B>(exec, "plica::hold_blocks", level_->sliding.count,
+                       HoldBlocks<B>{level_->sliding, blocks});
   update_vertices<B>(exec, "plica::invert_blocks", rows(), inverting(blocks));
 }
 
@@ -72,10 +82,14 @@ void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
 }
 
 template <class B>
-const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
+const BlockMatrix<B>& StageSystem<B>::matrix(const Exec& exec) {
   pattern();
-  if (!ready_)
+  if (!ready_) {
     forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+    if (level_->sliding.count > 0)
+      update_vertices<B>(exec, "plica::hold_matrix", rows(),
+                         HoldMatrix<B>{level_->sliding, pattern_.matrix});
+  }
   ready_ = true;
   return pattern_.matrix;
 }
@@ -89,9 +103,14 @@ const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) 
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
-  if (!by_matrix()) return forces_->product(state_, p, weights_, positive_, q);
-  update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
-  forces_->add_product_beside_matrix(state_, p, weights_, positive_, q);
+  if (by_matrix()) {
+    update_vertices<B>(exec, "plica::block_product", rows(),
+                       BlockProduct<B>{pattern_.matrix, p, q});
+    forces_->add_product_beside_matrix(state_, p, weights_, positive_, q);
+  } else {
+    forces_->product(state_, p, weights_, positive_, q);
+  }
+  hold(exec, q);
 }
 
 template <class B>

@@ -12,6 +12,7 @@ namespace plica {
 /// System A of an implicit stage on one level: its product and its vertex blocks.
 /// The product uses an assembled matrix, or none. With nodal elements it uses none; the matrix,
 /// from which coarser levels of a preconditioner are made, is then that of linear elements.
+/// Right sides and arguments of products are held, see hold(); kernels/linear/hold_system.hpp.
 template <class B>
 class StageSystem {
  public:
@@ -26,6 +27,8 @@ class StageSystem {
                bool projected);
   /// Sets A to the system of the last prepare() with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
+  /// Takes out of a vector what is along the directions that hold sliding vertices.
+  void hold(const Exec& exec, const Vectors<B>& x) const;
   /// Sets q = A p.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
   /// Sets q = A p, sums p.q into `curvature`, and runs `then`, the step that follows from it.

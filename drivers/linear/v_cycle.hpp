@@ -94,6 +94,7 @@ struct VCycleSolver {
                      Doubles<B>(squares_.data() + slot, 1));
       };
       cycle_->apply(exec, r, x);
+      system_.hold(exec, x);
       system_.product(exec, x, residual_);
       add<B>(exec, "plica::v_cycle_residual", -1, r, residual_);
       square(r, 0), square(residual_, 1);

@@ -10,6 +10,7 @@
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
+#include <stdexcept>
 
 namespace plica::python {
 
@@ -63,28 +64,55 @@ class SimulationOf final : public AnySimulation {
     return bad;
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
+  std::vector<Reaction> reactions() const override { return simulation_.reactions(); }
   std::vector<double> contact_depths() const override { return simulation_.contact_depths(); }
   std::vector<ToolState> tools() const override { return simulation_.tools(); }
   std::vector<HeldBy> held() const override { return simulation_.held(); }
-  void grasp(int obstacle) override { simulation_.grasp(obstacle); }
-  void release(int obstacle) override { simulation_.release(obstacle); }
+  void grasp(int obstacle) override { changing().grasp(obstacle); }
+  void release(int obstacle) override { changing().release(obstacle); }
   std::vector<CavityState> cavities() const override { return simulation_.cavities(); }
   void move_obstacle(int obstacle, const Point& displacement,
                      const std::optional<Point>& rotation) override {
     if (rotation)
-      simulation_.move_obstacle(obstacle, displacement, *rotation);
+      changing().move_obstacle(obstacle, displacement, *rotation);
     else
-      simulation_.move_obstacle(obstacle, displacement);
+      changing().move_obstacle(obstacle, displacement);
   }
+  void set_obstacle_motion(int obstacle, const std::optional<Motion>& motion,
+                           const std::optional<Turn>& turn) override {
+    if (motion) changing().set_obstacle_motion(obstacle, *motion);
+    if (turn) changing().set_obstacle_turn(obstacle, turn);
+  }
+  std::vector<ObstaclePlace> obstacles() const override {
+    std::vector<ObstaclePlace> all;
+    const ContactOptions& contact = scene_->problem.contact;
+    for (std::size_t o = 0; o < contact.obstacles.size(); ++o) {
+      const int i = static_cast<int>(o);
+      all.push_back({obstacle_name(contact, o), simulation_.obstacle_displacement(i),
+                     simulation_.obstacle_rotation(i), simulation_.obstacle_origin(i)});
+    }
+    return all;
+  }
+  void set_gravity(const Point& gravity) override {
+    expect_between_steps();
+    simulation_.set_gravity(gravity);
+  }
+  void set_time(double time) override { changing().set_time(time); }
   void end_at(double time) override { simulation_.end_at(time); }
 
-  ElementFields element_fields(int level) const override {
-    ElementFields fields = simulation_.element_fields(level);
+  ElementFields element_fields(int level, bool tensors) const override {
+    ElementFields fields = simulation_.element_fields(level, tensors);
     const Reordering& order = numbering(level).input;
     const auto& rows = fields.per_vertex ? order.vertices : order.tets;
-    return {fields.per_vertex, app::in_input_order(fields.von_mises, rows),
-            app::in_input_order(fields.J, rows)};
+    ElementFields sorted{fields.per_vertex, app::in_input_order(fields.von_mises, rows),
+                         app::in_input_order(fields.J, rows)};
+    if (!tensors) return sorted;
+    sorted.stress = app::in_input_order(fields.stress, rows, 6);
+    sorted.pressure = app::in_input_order(fields.pressure, rows);
+    sorted.principal_stretches = app::in_input_order(fields.principal_stretches, rows, 3);
+    return sorted;
   }
+  std::vector<double> contact_pressure() const override { return simulation_.contact_pressure(); }
 
   double time() const override { return simulation_.time(); }
   double macro_step() const override { return simulation_.macro_step(); }
@@ -94,6 +122,7 @@ class SimulationOf final : public AnySimulation {
     return app::in_input_numbers(simulation_.levels(), *scene_);
   }
   std::map<std::string, long> counters() const override { return simulation_.counters(); }
+  double residual() const override { return simulation_.residual(); }
   std::string precision() const override {
     return std::is_same_v<typename B::Real, float> ? "float" : "double";
   }
@@ -101,25 +130,31 @@ class SimulationOf final : public AnySimulation {
   void set_state(const Values& positions, const Values& velocities) override {
     const std::vector<int> order = numbering(0).input.vertices;
     const Rows x = on_device(positions, order), v = on_device(velocities, order);
-    simulation_.write_state(DeviceInput<B>(x), DeviceInput<B>(v));
+    changing().write_state(DeviceInput<B>(x), DeviceInput<B>(v));
     Kokkos::fence("plica::set_state");
     refresh();
   }
 
   void set_forces(HostForces forces) override {
     if constexpr (!B::on_host) throw InputError("forces of one's own need a back end on the host");
+    expect_between_steps();
     forces_ = {};
     if (forces)
       forces_ = [this, forces = std::move(forces)](const ForceRequest<B>& request) {
         add_forces(request, forces);
       };
     simulation_.set_external_forces(forces_);
+    simulation_.keep_step_starts(static_cast<bool>(forces_));
   }
 
   SavedState save() const override { return simulation_.save(); }
   void restore(const SavedState& saved) override {
-    simulation_.restore(saved);
+    changing().restore(saved);
     refresh();
+  }
+  void reset() override {
+    if (!start_) start_ = fresh_ ? save() : SimulationOf(scene_, choice_).save();
+    restore(*start_);
   }
 
   void start_files(const std::filesystem::path& folder) override {
@@ -129,7 +164,8 @@ class SimulationOf final : public AnySimulation {
   }
   void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) override {
     if (files_->frames() == 0 || files_->last_time() < simulation_.time())
-      files_->write(app::take_snapshot(simulation_, simulation_.time(), files_->volumes()));
+      files_->write(
+          app::take_snapshot(simulation_, simulation_.time(), files_->volumes(), files_->output()));
     app::Summary summary;
     summary.status = status, summary.diagnosis = diagnosis;
     summary.simulated_time = simulation_.time(), summary.last_good_time = files_->last_time();
@@ -139,7 +175,7 @@ class SimulationOf final : public AnySimulation {
     summary.threads = typename B::Exec().concurrency();
     summary.choice = choice_, summary.cycle = app::cycle_name(*scene_, choice_);
     summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches(),
-    summary.tools = tools();
+    summary.reactions = reactions(), summary.tools = tools();
     summary.held = held();
     summary.residual = simulation_.worst_residual();
     app::write_file(folder_ / "summary.json",
@@ -148,7 +184,7 @@ class SimulationOf final : public AnySimulation {
 
   void show_live(app::LiveOptions options) override {
     options.method = app::live_method(*scene_, simulation_, choice_);
-    app::show_live(*scene_, simulation_, options, forces_);
+    app::show_live(*scene_, changing(), options, forces_);
     refresh();
   }
 
@@ -157,13 +193,30 @@ class SimulationOf final : public AnySimulation {
   using HostRows = Kokkos::View<double* [3], Kokkos::LayoutRight, Kokkos::HostSpace,
                                 Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
+  void expect_between_steps() const {
+    if (stepping_)
+      throw std::runtime_error(
+          "this simulation is within a step, which asks for forces; expected changes between "
+          "steps");
+  }
+  /// Returns the simulation, to change what save() stores. Throws std::runtime_error within a step.
+  Simulation<B>& changing() {
+    expect_between_steps();
+    fresh_ = false;
+    return simulation_;
+  }
+
   std::optional<Diagnosis> step() {
+    Simulation<B>& simulation = changing();
+    stepping_ = true;
     try {
-      auto bad = simulation_.step_checked();
+      auto bad = simulation.step_checked();
       if (bad) bad = app::in_input_numbers(*bad, *scene_);
+      stepping_ = false;
       return bad;
     } catch (...) {  // thrown by a caller's force or by Ctrl-C within the step
-      simulation_.return_to_last_good();
+      simulation.return_to_step_start();
+      stepping_ = false;
       throw;
     }
   }
@@ -244,6 +297,8 @@ class SimulationOf final : public AnySimulation {
   Simulation<B> simulation_;
   std::size_t surface_points_;
   ExternalForces<B> forces_;
+  bool fresh_ = true, stepping_ = false;  // nothing has changed since the set-up; within step()
+  std::optional<SavedState> start_;
   double wall_time_ = 0;  // wall time of the steps [s]
   std::optional<app::RunFiles> files_;
   std::filesystem::path folder_;

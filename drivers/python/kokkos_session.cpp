@@ -10,6 +10,7 @@
 #include <plica/drivers/python/kokkos_session.hpp>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace plica::python {
 namespace {
@@ -50,6 +51,11 @@ void start_kokkos(int threads) {
   // Prevents Kokkos' warning that OpenMP's threads are not bound. Binding is the user's choice, and
   // here it is too late for it.
   setenv("OMP_PROC_BIND", "false", 0);
+  if (const char* const given = std::getenv("KOKKOS_NUM_THREADS"))
+    if (const std::string_view text = given; text.empty() || text.size() > 5 || text[0] == '0' ||
+                                             text.find_first_not_of("0123456789") != text.npos)
+      throw InputError(
+          fmt::format("KOKKOS_NUM_THREADS: expected a whole number of threads, got '{}'", text));
   Kokkos::InitializationSettings settings;
   if (threads > 0) settings.set_num_threads(threads);
   Kokkos::initialize(settings);
@@ -72,7 +78,6 @@ namespace {
 
 namespace Tools = Kokkos::Tools::Experimental;
 thread_local std::function<void()> call_between;
-Tools::EventSet tools_before;
 
 // Calls the function before kernels "plica::..." only: Kokkos' own kernels, such as those that make
 // a view, may not throw
@@ -81,19 +86,21 @@ void before_kernel(const char* name, const std::uint32_t, std::uint64_t* number)
   if (call_between && std::string_view(name).starts_with("plica::")) call_between();
 }
 
-}  // namespace
-
-BetweenKernels::BetweenKernels(std::function<void()> call) {
-  call_between = std::move(call);
-  tools_before = Tools::get_callbacks();
-  if (tools_before.begin_parallel_for != nullptr) return;  // keeps the user's profiling tool
+bool listen_to_kernels() {
+  if (Tools::get_callbacks().begin_parallel_for != nullptr)
+    return false;  // a user's profiling tool
   Tools::set_begin_parallel_for_callback(before_kernel);
   Tools::set_begin_parallel_reduce_callback(before_kernel);
+  return true;
 }
 
-BetweenKernels::~BetweenKernels() {
-  Tools::set_callbacks(tools_before);
-  call_between = {};
+}  // namespace
+
+BetweenKernels::BetweenKernels(std::function<void()> call)
+    : outer_(std::exchange(call_between, std::move(call))) {
+  [[maybe_unused]] static const bool listens = listen_to_kernels();
 }
+
+BetweenKernels::~BetweenKernels() { call_between = std::move(outer_); }
 
 }  // namespace plica::python

@@ -25,13 +25,16 @@ KokkosInfo kokkos_info();
 
 /// Calls a function before each kernel of the library that this thread launches, while the object
 /// exists. An exception of the function leaves the launch: so a long macro step or set-up can be
-/// interrupted. At most one object may exist at a time.
+/// interrupted. Objects of a thread may nest; the inner one's function is called.
 class BetweenKernels {
  public:
   explicit BetweenKernels(std::function<void()> call);
   ~BetweenKernels();
   BetweenKernels(const BetweenKernels&) = delete;
   BetweenKernels& operator=(const BetweenKernels&) = delete;
+
+ private:
+  std::function<void()> outer_;
 };
 
 }  // namespace plica::python

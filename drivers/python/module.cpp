@@ -14,18 +14,23 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/study_table.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/program.hpp>
 #include <plica/drivers/app/report/report.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/older_keys.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
+#include <plica/drivers/python/bind_results.hpp>
+#include <plica/drivers/python/handle.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
+#include <plica/drivers/python/read_motion.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/version.hpp>
 
@@ -35,7 +40,6 @@ using namespace nb::literals;
 namespace plica::python {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 template <class T>
 using Table = nb::ndarray<const T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using ScenePtr = std::shared_ptr<app::Scene>;
@@ -75,33 +79,27 @@ std::vector<Point> points_of(const Table<double>& table) {
   return points;
 }
 
-/// Checks for Ctrl-C at most twenty times a second, while the caller does not hold the GIL. Throws
-/// the Python exception.
-class Signals {
- public:
-  void operator()() {
-    if (Clock::now() - last_ < std::chrono::milliseconds(50)) return;
-    const nb::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    last_ = Clock::now();
-  }
-
- private:
-  Clock::time_point last_ = Clock::now();
-};
-
-// Returns a mesh as a tuple: points, tets, region of each tet, names of the regions, vertex sets
+// Returns the members of a mesh as a tuple, in the order of plica.Mesh
 nb::tuple parts_of(const TetMesh& mesh) {
   nb::dict sets;
   for (const auto& [name, vertices] : mesh.vertex_sets) sets[name.c_str()] = array(vertices);
+  nb::dict vectors, triangles;
+  for (const auto& [name, all] : mesh.tet_vectors) vectors[name.c_str()] = array(all);
+  for (const auto& [name, all] : mesh.triangle_sets) triangles[name.c_str()] = array(all);
   return nb::make_tuple(array(mesh.vertices), array(mesh.tets), array(mesh.region),
-                        mesh.region_names, sets);
+                        mesh.region_names, sets, array(mesh.filled), vectors, triangles);
 }
 
 void write_mesh_file(const std::string& file, const Table<double>& points, const Table<int>& tets,
                      const std::vector<int>& region, const std::vector<std::string>& region_names,
-                     const std::map<std::string, std::vector<int>>& vertex_sets) {
+                     const std::map<std::string, std::vector<int>>& vertex_sets,
+                     const std::vector<double>& filled,
+                     const std::map<std::string, std::vector<std::array<double, 3>>>& tet_vectors,
+                     const std::map<std::string, std::vector<std::array<int, 3>>>& triangle_sets) {
   TetMesh mesh{points_of(points), {}, region, region_names, vertex_sets};
+  mesh.filled = filled, mesh.triangle_sets = triangle_sets;
+  for (const auto& [name, vectors] : tet_vectors)
+    for (const auto& [x, y, z] : vectors) mesh.tet_vectors[name].emplace_back(x, y, z);
   for (std::size_t i = 0; i < tets.shape(0); ++i)
     mesh.tets.push_back({tets(i, 0), tets(i, 1), tets(i, 2), tets(i, 3)});
   app::write_files(write_mesh(file, mesh).files);
@@ -118,6 +116,7 @@ ScenePtr load(const std::string& file, const std::string& json, const std::strin
 
 // Runs a study and returns its study.csv
 std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
+  const Access access;
   start_kokkos();
   StudyOptions options = scene->study;
   options.duration = scene->duration, options.probes = scene->output.probes,
@@ -133,33 +132,26 @@ std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
   }
 }
 
-void bind_results(nb::module_& m) {
-  nb::class_<Diagnosis>(
-      m, "Diagnosis",
-      "Why a run cannot go on. Indices count as the mesh's file does; -1: does not apply.")
-      .def_ro("kind", &Diagnosis::kind,
-              "non_finite, inverted, energy, speed, contact, solver or stability")
-      .def_ro("level", &Diagnosis::level, "0: the finest")
-      .def_ro("element", &Diagnosis::element, "tetrahedron of that level")
-      .def_ro("vertex", &Diagnosis::vertex, "vertex of that level")
-      .def_ro("region", &Diagnosis::region, "of the element")
-      .def_ro("J", &Diagnosis::J, "volume ratio of the element")
-      .def_ro("substep_over_critical", &Diagnosis::substep_over_critical, "of that level")
-      .def_ro("remedy", &Diagnosis::remedy, "most likely to help")
-      .def("__str__", &Diagnosis::text)
-      .def("__repr__", [](const Diagnosis& d) { return "<plica.Diagnosis: " + d.text() + ">"; });
-  nb::class_<Energies>(m, "Energies", "Energies of level 0 [J].")
-      .def_ro("kinetic", &Energies::kinetic, "of motion [J]")
-      .def_ro("elastic", &Energies::elastic, "of deformation [J]")
-      .def_ro("potential", &Energies::potential, "gravity's, zero at the start [J]")
-      .def_ro("contact", &Energies::contact, "of the penalties [J]")
-      .def_prop_ro("total", &Energies::total, "their sum [J]")
-      .def("__repr__", [](const Energies& e) {
-        return "Energies(kinetic=" + std::to_string(e.kinetic) +
-               ", elastic=" + std::to_string(e.elastic) +
-               ", potential=" + std::to_string(e.potential) +
-               ", contact=" + std::to_string(e.contact) + ")";
-      });
+// Sets the scene up, and returns what tell(scene, precision) says of it
+std::string told(const ScenePtr& scene, const std::string& precision,
+                 std::string (*tell)(const app::Scene&, const std::string&)) {
+  const Access access;
+  start_kokkos();
+  Signals signals;
+  const nb::gil_scoped_release release;
+  const BetweenKernels between([&] { signals(), Access::stop_at_end(); });
+  return tell(*scene, precision);
+}
+
+// Runs the program plica with these words of a command line, and returns its exit status
+int run_program(std::vector<std::string> words) {
+  if (Kokkos::is_initialized())
+    throw std::runtime_error("the program starts Kokkos, which runs here already");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const nb::gil_scoped_release release;
+  return app::program(static_cast<int>(words.size()), pointers.data());
 }
 
 void bind_scene(nb::module_& m) {
@@ -168,6 +160,7 @@ void bind_scene(nb::module_& m) {
       .def_ro("name", &app::Scene::name)
       .def_ro("duration", &app::Scene::duration)
       .def_ro("warnings", &app::Scene::warnings)
+      .def_prop_ro("cycle", [](const app::Scene& s) { return s.problem.integration.cycle; })
       .def_prop_ro("automatic_step",
                    [](const app::Scene& s) { return !s.problem.integration.macro_step; })
       .def_prop_ro("levels", [](const app::Scene& s) { return s.problem.body.levels.size(); })
@@ -184,29 +177,26 @@ void bind_scene(nb::module_& m) {
                                 ", counted from 0, the finest");
              return parts_of(app::in_input_order(s.problem.body.levels[level], s.numbering[level]));
            })
+      .def("rows",
+           [](const app::Scene& s, std::size_t level) {
+             const app::Numbering& numbering = s.numbering.at(level);
+             const std::string file = level < s.levels.size() ? s.levels[level].file : "";
+             return nb::make_tuple(
+                 file, array(app::in_input_order(numbering.vertex_ids, numbering.input.vertices)));
+           })
       .def("surface", [](const app::Scene& s) {
         const auto& surface = s.problem.body.surface;
         return surface ? array(surface->triangles) : nb::none();
       });
   m.def("load", &load, "file"_a, "json"_a, "name"_a, "overrides"_a);
   m.def("study", &study_of, "scene"_a, "budget"_a.none());
+  m.def("explain", [](const ScenePtr& scene, const std::string& precision) {
+    return told(scene, precision, app::explained);
+  });
+  m.def("check", [](const ScenePtr& scene, const std::string& precision) {
+    return told(scene, precision, app::checked_json);
+  });
 }
-
-/// Simulation that can be closed while Python still refers to it, such as in a traceback when the
-/// interpreter ends.
-class Handle {
- public:
-  explicit Handle(std::shared_ptr<AnySimulation> simulation) : simulation_(std::move(simulation)) {}
-  void close() { simulation_.reset(); }
-  /// Returns the simulation; it stays alive while the caller uses it. Throws if it is closed.
-  std::shared_ptr<AnySimulation> operator->() const {
-    if (!simulation_) throw std::runtime_error("this simulation is closed");
-    return simulation_;
-  }
-
- private:
-  std::shared_ptr<AnySimulation> simulation_;
-};
 
 nb::object live(const Handle& simulation, Field field, int level) {
   return array(simulation->live(field, level), 3);
@@ -218,23 +208,24 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
     const nb::gil_scoped_acquire gil;  // the thread that drops the callback may lack the GIL
     delete object;
   });
-  simulation->set_forces(
-      [held](int level, double time, const Values& x, const Values& v, Values& f) {
-        const nb::gil_scoped_acquire gil;
-        const auto forces = std::make_shared<Values>(f);
-        (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
-        if (const auto bad =
-                std::ranges::find_if_not(*forces, [](double x) { return std::isfinite(x); });
-            bad != forces->end())
-          throw InputError("forces: level " + std::to_string(level) + ", vertex " +
-                           std::to_string((bad - forces->begin()) / 3) + ": " +
-                           std::to_string(*bad) + "; expected finite numbers [N]");
-        f = *forces;
-      });
+  simulation->set_forces([held](int level, double time, const Values& x, const Values& v,
+                                Values& f) {
+    const nb::gil_scoped_acquire gil;
+    const auto forces = std::make_shared<Values>(f);
+    (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
+    if (const auto bad =
+            std::ranges::find_if_not(*forces, [](double force) { return std::isfinite(force); });
+        bad != forces->end())
+      throw InputError("forces: level " + std::to_string(level) + ", vertex " +
+                       std::to_string((bad - forces->begin()) / 3) + ": " + std::to_string(*bad) +
+                       "; expected finite numbers [N]");
+    f = *forces;
+  });
 }
 
 /// Serves a live view until Ctrl-C, which raises KeyboardInterrupt. Calls listening(address) once.
 void show_live(const Handle& simulation, const app::Port& port, const nb::object& listening) {
+  const Handle::Use used = simulation.use();
   Signals signals;
   const nb::gil_scoped_release release;
   app::LiveOptions options{port};
@@ -242,8 +233,8 @@ void show_live(const Handle& simulation, const app::Port& port, const nb::object
     const nb::gil_scoped_acquire gil;
     listening(address);
   };
-  options.ended = [&] { return signals(), false; };
-  simulation->show_live(options);
+  options.ended = [&] { return signals(), Access::offer(), false; };
+  used->show_live(options);
 }
 
 void bind_simulation(nb::module_& m) {
@@ -253,10 +244,11 @@ void bind_simulation(nb::module_& m) {
       .def("close", &H::close)
       .def("advance",
            [](const H& s, double until, long at_most) {
+             const Handle::Use used = s.use();
              Signals signals;
              const nb::gil_scoped_release release;
-             const BetweenKernels between([&] { signals(); });
-             return s->advance(until, at_most, [&] { signals(); });
+             const BetweenKernels between([&] { signals(), Access::stop_at_end(); });
+             return used->advance(until, at_most, [&] { signals(), Access::offer(); });
            })
       .def("end_at", [](const H& s, double time) { s->end_at(time); })
       .def("positions", [](const H& s, int level) { return live(s, Field::positions, level); })
@@ -265,15 +257,31 @@ void bind_simulation(nb::module_& m) {
       .def("surface_velocities", [](const H& s) { return live(s, Field::surface_velocities, 0); })
       .def("element_fields",
            [](const H& s, int level) {
-             ElementFields fields = s->element_fields(level);
+             ElementFields fields = s->element_fields(level, false);
              return nb::make_tuple(fields.per_vertex, array(std::move(fields.von_mises)),
                                    array(std::move(fields.J)));
            })
+      .def("tensor_fields",
+           [](const H& s, int level) {
+             ElementFields fields = s->element_fields(level, true);
+             return nb::make_tuple(array(std::move(fields.stress), 6),
+                                   array(std::move(fields.pressure)),
+                                   array(std::move(fields.principal_stretches), 3));
+           })
+      .def("contact_pressure", [](const H& s) { return array(s->contact_pressure()); })
       .def("wrenches",
            [](const H& s) {
              std::vector<nb::object> all;
              for (const Wrench& w : s->wrenches())
                all.push_back(nb::make_tuple(w.obstacle, vector_of(w.force), vector_of(w.torque)));
+             return all;
+           })
+      .def("reactions",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const Reaction& r : s->reactions())
+               all.push_back(nb::make_tuple(r.set, vector_of(r.force), vector_of(r.torque),
+                                            vector_of(r.about)));
              return all;
            })
       .def("contact_depths", [](const H& s) { return s->contact_depths(); })
@@ -312,6 +320,26 @@ void bind_simulation(nb::module_& m) {
                              r ? std::optional<Point>(point(*r)) : std::nullopt);
           },
           "obstacle"_a, "displacement"_a, "rotation"_a.none())
+      .def("set_obstacle_motion",
+           [](const H& s, int obstacle, const std::string& motion, const std::string& turn) {
+             s->set_obstacle_motion(
+                 obstacle, motion.empty() ? std::nullopt : std::optional(read_motion(motion)),
+                 turn.empty() ? std::nullopt : std::optional(read_turn(turn)));
+           })
+      .def("obstacles",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const ObstaclePlace& o : s->obstacles())
+               all.push_back(nb::make_tuple(o.name, vector_of(o.displacement),
+                                            vector_of(o.rotation), vector_of(o.origin)));
+             return all;
+           })
+      .def("set_gravity",
+           [](const H& s, const std::array<double, 3>& g) {
+             s->set_gravity({g[0], g[1], g[2]});
+           })
+      .def("set_time", [](const H& s, double time) { s->set_time(time); })
+      .def("reset", [](const H& s) { s->reset(); })
       .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
       .def(
           "write_frame",
@@ -342,17 +370,20 @@ void bind_simulation(nb::module_& m) {
       .def_prop_ro("precision", [](const H& s) { return s->precision(); })
       .def_prop_ro("energies", [](const H& s) { return s->energies(); })
       .def_prop_ro("counters", [](const H& s) { return s->counters(); })
+      .def_prop_ro("residual", [](const H& s) { return s->residual(); })
       .def_prop_ro("levels", [](const H& s) { return app::levels_json(s->levels()).dump(); });
   m.def("simulate", [](const ScenePtr& scene, const std::string& precision) {
+    const Access access;
     start_kokkos();
     Signals signals;
     const nb::gil_scoped_release release;
-    const BetweenKernels between([&] { signals(); });
+    const BetweenKernels between([&] { signals(), Access::stop_at_end(); });
     return Handle(make_simulation(scene, precision));
   });
 }
 
 nb::dict info() {
+  const Access access;
   const KokkosInfo kokkos = kokkos_info();
   nb::dict all;
   all["version"] = version(), all["revision"] = git_revision(), all["compiler"] = compiler();
@@ -366,8 +397,16 @@ NB_MODULE(_plica, m) {
   nb::set_leak_warnings(false);  // a simulation in a global variable lives longer than the module
   nb::exception<InputError>(m, "InputError", PyExc_ValueError).attr("__module__") = "plica";
   nb::exception<app::FileError>(m, "FileError", PyExc_OSError).attr("__module__") = "plica";
-  m.def("start", &start_kokkos, "threads"_a);
-  m.def("finalize", &finalize_kokkos);
+  m.def("start", [](int threads) {
+    const Access access;
+    start_kokkos(threads);
+  });
+  m.def("end", &Access::end);
+  m.def("after_fork", &Access::after_fork);
+  m.def("finalize", [] {
+    if (!Access::lost_by_fork()) finalize_kokkos();
+  });
+  m.def("program", &run_program);
   m.def("info", &info);
   m.def("version", [] { return std::string(version()); });
   m.def("keys", [] {
@@ -386,9 +425,13 @@ NB_MODULE(_plica, m) {
                        text + "', " + problem.what());
     }
   });
-  m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });
+  m.def("read_mesh", [](const std::string& file, const std::string& regions,
+                        const std::vector<std::string>& leave_out, const std::string& order) {
+    const ReadOptions options = {Flaws::refused, regions, leave_out, second_order_named(order)};
+    return parts_of(read_mesh(file, nullptr, options));
+  });
   m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a,
-        "region_names"_a, "vertex_sets"_a);
+        "region_names"_a, "vertex_sets"_a, "filled"_a, "tet_vectors"_a, "triangle_sets"_a);
   m.def("former_run", [](const std::string& folder) { return app::former_run(folder); });
   m.def("report", [](const std::string& folder, std::size_t frames) {
     const app::Report made = app::make_report(folder, frames);

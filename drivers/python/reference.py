@@ -5,7 +5,7 @@
     reference.py            writes cmake/docs/reference/python.md
     reference.py --check    fails where the page differs from what it would write
 
-It reads the sources and needs no build. Classes that C++ binds are read in module.cpp.
+It reads the sources and needs no build. Classes that C++ binds are read in bind_results.cpp.
 """
 import ast
 import re
@@ -55,9 +55,10 @@ def has(function: ast.FunctionDef, decorator: str) -> bool:
     return any(ast.unparse(one) == decorator for one in function.decorator_list)
 
 
-def class_text(node: ast.ClassDef) -> str:
-    """The class, then each public member."""
-    members = [one for one in node.body if isinstance(one, ast.FunctionDef)]
+def class_text(node: ast.ClassDef, nodes: dict) -> str:
+    """The class, then each public member, those of its bases too."""
+    bases = [nodes[ast.unparse(base)] for base in node.bases if ast.unparse(base) in nodes]
+    members = [one for of in (node, *bases) for one in of.body if isinstance(one, ast.FunctionDef)]
     made = next((one for one in members if one.name == "__init__"), None)
     text = f"## {node.name}\n\n"
     if made:
@@ -80,9 +81,9 @@ def cell(words: str) -> str:
 
 
 def bound_classes() -> dict[str, str]:
-    """Classes of module.cpp with their values."""
+    """Classes of bind_results.cpp with their values."""
     classes, name = {}, ""
-    for match in BOUND.finditer((HERE / "module.cpp").read_text()):
+    for match in BOUND.finditer((HERE / "bind_results.cpp").read_text()):
         words = cell("".join(ast.literal_eval(part) for part in re.findall(r'"(?:[^"\\]|\\.)*"', match[2])))
         if match[0].startswith("nb::class_"):
             name = match[1]
@@ -108,7 +109,7 @@ def page() -> str:
     text += "How to begin: [tutorial](../tutorials/python.md); to install: [install](../how-to/install.md#python).\n\n"
     for name in sorted(names, key=lambda name: (name not in ("Scene", "Simulation"), name)):
         if isinstance(nodes.get(name), ast.ClassDef):
-            text += class_text(nodes[name])
+            text += class_text(nodes[name], nodes)
         elif name in bound:
             text += bound[name]
     text += "## Functions\n\n"

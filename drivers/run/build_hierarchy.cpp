@@ -18,11 +18,14 @@
 #include <plica/drivers/level/build_level.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
+#include <plica/drivers/loads/dead_loads.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/time/critical_step.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
+#include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
 #include <plica/meshes/mesh_quality.hpp>
@@ -131,13 +134,52 @@ class HierarchyBuilder {
         loads_.push_back(assemble_loads(body, mesh, constants_[i], level,
                                         i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
         terms_.push_back(make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
+        if (seeks_rest(problem_.integration)) add_growing_weight(constants_[i].mass, terms_[i]);
       }
       for (Point& p : mesh.vertices) p += shift;
     }
+    place_supports(shift);
     for (const TetMesh& mesh : built_.meshes)
       locators_.push_back(std::make_unique<BodyLocator>(mesh, body.parts));
     if (body.surface) surface_ = *body.surface;
     for (Point& p : surface_.vertices) p += shift;
+  }
+
+  /// Adds the weight of a level as a load that grows, which gravity does not.
+  void add_growing_weight(const std::vector<double>& mass,
+                          std::vector<std::unique_ptr<ForceTerm<B>>>& terms) const {
+    if (problem_.gravity.isZero(0)) return;
+    std::vector<int> vertex(mass.size());
+    std::iota(vertex.begin(), vertex.end(), 0);
+    std::vector<Point> force;
+    for (const double m : mass) force.push_back(m * problem_.gravity);
+    std::vector<Load<B>> weight;
+    weight.push_back({static_cast<int>(force.size()),
+                      to_device<Indices<B>>("weight.vertex", vertex),
+                      to_device<Vectors<B>>("weight.force", rows<typename B::Real>(force)),
+                      course_to_rest(problem_.integration.rest)});
+    terms.push_back(std::make_unique<DeadLoads<B>>(std::move(weight)));
+  }
+
+  /// Returns the tolerance of rest; 0: the body moves.
+  double rest_tolerance() const {
+    constexpr bool single = sizeof(typename B::Real) < sizeof(double);
+    const IntegrationOptions& o = problem_.integration;
+    return seeks_rest(o) ? o.rest.tolerance.value_or(single ? 1e-3 : 1e-5) : 0;
+  }
+
+  /// Finds the points that torques of held vertices are about, and that given motions turn about.
+  void place_supports(const Point& shift) {
+    const Body& body = problem_.body;
+    std::vector<Point> turned_about;
+    for (HeldSet& set : constants_.front().held) set.centre += shift;
+    for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+      Point& centre = constants_.front().held[body.fixed.size() + i].centre;
+      if (body.prescribed[i].rotate) centre = body.prescribed[i].rotate->about.value_or(centre);
+      turned_about.push_back(centre);
+    }
+    for (LevelConstants& level : constants_) level.turned_about = turned_about;
+    built_.held = constants_.front().held;
   }
 
   /// Deforms level 0 as it starts, after limits were found at rest. The other levels take their
@@ -160,6 +202,7 @@ class HierarchyBuilder {
             "body.material.allow_inversion: true, or a start without inverted elements");
     copy(built_.hierarchy->exec(), state.u,
          to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
+    hold_sliding(built_.hierarchy->exec(), built_.hierarchy->levels.front(), state.u);
   }
 
   void report_mesh(std::size_t i) {
@@ -199,6 +242,8 @@ class HierarchyBuilder {
     constexpr double thick = 8;  // elements across
     if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))
       return BesideNodal::nothing;
+    // products in float know nothing of sliding vertices
+    if (!constants_[i].sliding.empty()) return BesideNodal::matrix;
     const bool by_products = has_contact(problem_) ||
                              smooths_pressure(problem_.body, constants_[i].lame) ||
                              elements_across(built_.meshes[i]) >= thick;
@@ -363,9 +408,11 @@ class HierarchyBuilder {
       level.integrator = Kind::template make<B>(
           level, {implicit, contact_ != nullptr, allows_inversion(problem_.body.material),
                   problem_.integration.on_failure.unsolved == "stop",
-                  conserves_energy(implicit, report.integrator), report.mean_edge, make_solver});
+                  conserves_energy(implicit, report.integrator), report.mean_edge, make_solver,
+                  rest_tolerance(), report.critical_step});
     });
-    level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
+    const Point gravity = rest_tolerance() > 0 ? Point(Point::Zero()) : problem_.gravity;
+    level.set_forces(elasticity_[i], gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))
       level.viscosity = std::make_unique<Viscosity<B>>(
           constants_[i].shape, problem_.integration.relaxation, built_.meshes[i], level);
@@ -373,7 +420,8 @@ class HierarchyBuilder {
 
   /// Makes the stepper, and lets it plan the steps of the levels.
   void plan() {
-    Steppers::visit(problem_.integration.cycle,
+    const std::string& cycle = problem_.integration.cycle;
+    Steppers::visit(seeks_rest(problem_.integration) ? Single::name : cycle,
                     [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });
     StepperSetup<B> setup{problem_,       *built_.hierarchy, built_.meshes, constants_,    up_,
                           elasticity_[0], eigenvalues_[0],   contact_,      built_.reports};

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/body/supports.hpp>
 #include <plica/drivers/cycles/stepper.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <vector>
@@ -15,6 +16,7 @@ struct BuiltHierarchy {
   std::unique_ptr<Stepper<B>> stepper;
   std::vector<TetMesh> meshes;  ///< placed meshes of the levels in use
   std::vector<LevelReport> reports;
+  std::vector<HeldSet> held;     ///< held vertices of level 0; their centres are placed
   double macro_step = 0;         ///< length of a macro step [s]
   std::optional<HimReport> him;  ///< report of cycle him; none: another cycle
 };

@@ -49,10 +49,7 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
   if (report.explicit_integrator && d.substep_over_critical > 1)
     d.remedy = "a macro_step or sub-steps within the critical step of that level";
   else if (built.reports.size() > 1)
-    d.remedy =
-        "another macro_step (every cycle adds some error, so that a smaller step can be worse), "
-        "more sub-steps, or "
-        "cycle: single for comparison";
+    d.remedy = "cycle: single, which steps level 0 alone, a shorter macro_step, or more sub-steps";
   else if (report.explicit_integrator)
     d.remedy =
         "a smaller macro_step, or integration.on_failure.halvings: the critical step is that of "
@@ -72,6 +69,10 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
         "a smaller macro_step, contact.stiffness_scale above 1, or an obstacle that is not thinner "
         "than what a "
         "point moves in a step";
+  if ((*built.hierarchy)[d.level].asks_caller())
+    d.remedy +=
+        "; or smaller or softer forces of your own (set_external_forces, the mouse of a live "
+        "view): no step is made shorter for them";
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
 std::vector<Choice> diagnosis_kinds() {
   return {{"non_finite", "a value is not finite"},
           {"inverted", "an element is inside out"},
-          {"energy", "the body has more kinetic energy than was put in"},
+          {"energy", "kinetic energy exceeds the work done on the body: the step is unstable"},
           {"speed", "a vertex leaves the body faster than its elements can follow"},
           {"contact", "a point is deeper in an obstacle than the body is large"},
           {"solver", "the solver failed"},

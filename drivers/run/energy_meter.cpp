@@ -20,10 +20,15 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
   const auto mass =
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
   for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
-  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
+  set_gravity(gravity);
   const LevelData<B>& level = hierarchy[0];
   blocks_ = BlockSums<B>(std::max(
       {level.model.vertices, static_cast<int>(level.partial.extent(0)), level.surface.points}));
+}
+
+template <class B>
+void EnergyMeter<B>::set_gravity(const Point& gravity) {
+  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
 }
 
 template <class B>

@@ -156,6 +156,7 @@ class EnergyMeter {
  public:
   /// Prepares the sums. `mesh` is that of level 0.
   EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, const Point& gravity);
+  void set_gravity(const Point& gravity);         ///< from now on [m/s^2]
   MotionReport motion(const Point& drift) const;  ///< one pass over the vertices
   Energies all(double time) const;  ///< one pass each over vertices, elements and surface
 

@@ -200,9 +200,14 @@ class Joiner {
       std::vector<int>& moved = to.vertex_sets[set];
       for (const int v : of) moved.push_back(v + vertices);
     }
+    for (const auto& [set, of] : mesh.triangle_sets)
+      for (auto triangle : of) {
+        for (int& v : triangle) v += vertices;
+        to.triangle_sets[set].push_back(triangle);
+      }
   }
 
-  /// Replaces the mesh's vertex sets by those of the joined body.
+  /// Replaces the mesh's sets of vertices and triangles by those of the joined body.
   static void add_selections(const std::string& name, const Body& body, TetMesh& mesh, int level) {
     std::map<std::string, std::vector<int>> sets;
     for (const auto& [set, vertices] : mesh.vertex_sets) sets[name + "/" + set] = vertices;
@@ -214,7 +219,7 @@ class Joiner {
       sets[name + "/" + path] =
           select_vertices(mesh, where, {"bodies." + name + "." + path, level});
     };
-    for (std::size_t i = 0; i < body.fixed.size(); ++i) add("fixed", i, body.fixed[i]);
+    for (std::size_t i = 0; i < body.fixed.size(); ++i) add("fixed", i, body.fixed[i].where);
     for (std::size_t i = 0; i < body.prescribed.size(); ++i)
       add("prescribed", i, body.prescribed[i].where);
     for (std::size_t i = 0; i < body.loads.size(); ++i) add("loads", i, body.loads[i].where);
@@ -222,15 +227,27 @@ class Joiner {
       for (std::size_t i = 0; i < body.initial.parts.size(); ++i)
         add("initial.parts", i, body.initial.parts[i].where);
     mesh.vertex_sets = std::move(sets);
+    std::map<std::string, std::vector<std::array<int, 3>>> triangles;
+    for (const auto& [set, of] : mesh.triangle_sets) triangles[name + "/" + set] = of;
+    for (std::size_t i = 0; i < body.loads.size(); ++i)
+      if (const auto* group = std::get_if<GroupSelection>(&body.loads[i].where))
+        if (const auto of = mesh.triangle_sets.find(group->name); of != mesh.triangle_sets.end())
+          triangles[name + "/loads." + std::to_string(i)] = of->second;
+    mesh.triangle_sets = std::move(triangles);
   }
 
   void keep_selections(const std::string& name, const Body& body) {
     const auto set = [&](const std::string& key, std::size_t i) -> Selection {
       return GroupSelection{name + "/" + key + "." + std::to_string(i)};
     };
-    for (std::size_t i = 0; i < body.fixed.size(); ++i) all_.fixed.push_back(set("fixed", i));
-    for (std::size_t i = 0; i < body.prescribed.size(); ++i)
-      all_.prescribed.push_back({set("prescribed", i), body.prescribed[i].motion});
+    for (std::size_t i = 0; i < body.fixed.size(); ++i) {
+      all_.fixed.push_back(body.fixed[i]);
+      all_.fixed.back().where = set("fixed", i);
+    }
+    for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+      all_.prescribed.push_back(body.prescribed[i]);
+      all_.prescribed.back().where = set("prescribed", i);
+    }
     for (std::size_t i = 0; i < body.loads.size(); ++i)
       all_.loads.push_back({set("loads", i), body.loads[i].load, body.loads[i].course});
     const InitialOptions& start = body.initial;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/contact/contact.hpp>
+#include <plica/drivers/run/archive_motion.hpp>
 #include <variant>
 #include <vector>
 
@@ -22,12 +23,29 @@ class MotionCommands {
 
   explicit MotionCommands(const ContactOptions& contact) {
     for (const ObstacleOptions& o : contact.obstacles) initial_.push_back({o.motion, o.turn});
+    given_ = initial_;
+  }
+
+  /// Returns whether obstacles may move otherwise than the problem says.
+  bool commanded() const { return commanded_; }
+
+  /// Names how obstacles move. A state in which they move as the problem says has no such part.
+  void name_fields(Archive<B>& archive) {
+    constexpr std::uint64_t mark = 0x6d6f76656d656e74;
+    std::vector<Moves> moves = archive.saving() ? present() : given_;
+    const bool others = archive.part(mark, commanded_);
+    if (others)
+      for (Moves& each : moves) name_motion(archive, each.motion), name_turn(archive, each.turn);
+    if (!archive.restoring()) return;
+    initial_ = std::move(moves), commanded_ = others;
+    said_.clear(), next_ = 0;
   }
 
   /// Records how an obstacle moves from this time [s] on. Forgets what was set for later times.
   void record(const Contact<B>& contact, double time, int obstacle, const Command& what) {
     said_.erase(said_.begin() + static_cast<std::ptrdiff_t>(next_), said_.end());
     said_.push_back({time, obstacle, what});
+    commanded_ = true;
     go_on(contact, time);
   }
 
@@ -49,12 +67,7 @@ class MotionCommands {
   /// Forgets what is only needed to go back further than to this time [s].
   void forget_before(double time) {
     std::size_t count = 0;
-    for (; count < next_ && said_[count].time < time; ++count) {
-      Moves& moves = initial_[static_cast<std::size_t>(said_[count].obstacle)];
-      if (const Motion* motion = std::get_if<Motion>(&said_[count].what)) moves.motion = *motion;
-      if (const auto* turn = std::get_if<std::optional<Turn>>(&said_[count].what))
-        moves.turn = *turn;
-    }
+    for (; count < next_ && said_[count].time < time; ++count) note(initial_, said_[count]);
     said_.erase(said_.begin(), said_.begin() + static_cast<std::ptrdiff_t>(count));
     next_ -= count;
   }
@@ -75,9 +88,23 @@ class MotionCommands {
     int obstacle;
     Command what;
   };
+  std::vector<Moves> given_;  // motions that the problem says
   std::vector<Moves> initial_;
   std::vector<Change> said_;
   std::size_t next_ = 0;
+  bool commanded_ = false;
+
+  static void note(std::vector<Moves>& all, const Change& change) {
+    Moves& moves = all[static_cast<std::size_t>(change.obstacle)];
+    if (const Motion* motion = std::get_if<Motion>(&change.what)) moves.motion = *motion;
+    if (const auto* turn = std::get_if<std::optional<Turn>>(&change.what)) moves.turn = *turn;
+  }
+
+  std::vector<Moves> present() const {
+    std::vector<Moves> all = initial_;
+    for (std::size_t i = 0; i < next_; ++i) note(all, said_[i]);
+    return all;
+  }
 
   static void apply(const Contact<B>& contact, const Change& change) {
     if (const Motion* motion = std::get_if<Motion>(&change.what))

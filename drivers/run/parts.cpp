@@ -97,7 +97,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       "neither body.material nor a region has prony", sum([&](L& l) {
         if (l.viscosity) l.viscosity->name_fields(archive, l, {});
       }));
-  add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
+  add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for",
+      sum([&](L& l) { archive.owns(l.sliding); }));
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"),
       "none asked for", sum([&](L& l) { archive.owns(l.prescribed); }));
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for",

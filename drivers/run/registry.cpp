@@ -30,6 +30,7 @@ std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
 
 std::vector<Choice> cycle_choices() {
   std::vector<Choice> list = cycles();
+  list.push_back({"rest", "no motion: the equilibrium under the loads, which grow in load steps"});
   list.push_back({"auto",
                   "him or single, with its macro step: the longest that short trials find within "
                   "integration.error_class"});
@@ -89,6 +90,10 @@ std::vector<Choice> tangents() {
            "the derivative of the force; a solve takes no direction in which the body softens"},
           {"positive", "projected to positive semi-definite, element by element"},
           {"auto", "exact; projected where Newton's method finds that the body softens"}};
+}
+
+std::vector<Choice> axis_choices() {
+  return {{"x", "[1, 0, 0]"}, {"y", "[0, 1, 0]"}, {"z", "[0, 0, 1]"}};
 }
 
 std::vector<Choice> unsolved_outcomes() {

@@ -38,6 +38,7 @@
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
@@ -50,14 +51,15 @@ constexpr double time_rounding = 1e-9;  // relative
 // part of an edge per macro step: the energy of slower motion is always allowed
 constexpr double least_edge = 1e-3;
 
-const Problem& steppable(const Problem& p, Validation validation) {
+/// Returns the problem that is stepped, which is checked.
+Problem steppable(const Problem& p, Validation validation) {
   if (validation == Validation::needed) validate(p);
   if (p.integration.cycle == "auto")
     throw InputError(
         "integration.cycle is auto, which a simulation does not decide; expected a cycle by its "
         "name: "
         "choose_cycle() of plica/drivers/study/choose_cycle.hpp finds one by short trials");
-  return p;
+  return problem_at_rest(p);
 }
 
 }  // namespace
@@ -76,6 +78,7 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
       built(build_hierarchy<B>(problem, exec)),
       queue(exec),
       meter(*built.hierarchy, built.meshes.front(), p.gravity),
+      held(built.held),
       motions(p.contact),
       control(most_halvings(problem)) {
   check_couplings(p.contact, built.macro_step);
@@ -104,6 +107,7 @@ template <class B>
 void Simulation<B>::step() {
   Impl& s = *impl_;
   s.residual = 0;
+  if (s.step_start) s.keep(*s.step_start);
   const Kokkos::Timer timer;
   s.stepped([&] {
     if (s.control.halves() && (s.judges || s.control.divides())) return s.cover(false);
@@ -204,8 +208,13 @@ std::optional<Diagnosis> Simulation<B>::Impl::find_failure(const MotionReport& n
   const Energies& e = now.energies;
   if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return failure("non_finite");
   for (std::size_t i = 0; i < hierarchy().levels.size(); ++i)
-    if (const std::string why = hierarchy().levels[i].integrator->failure(); !why.empty())
-      return failure("solver", motion, static_cast<int>(i), why);
+    if (const std::string why = hierarchy().levels[i].integrator->failure(); !why.empty()) {
+      Diagnosis bad = failure("solver", motion, static_cast<int>(i), why);
+      const int vertex = hierarchy().levels[i].integrator->failed_vertex();
+      if (vertex >= 0) bad.vertex = vertex, bad.element = -1;
+      if (seeks_rest(problem.integration)) bad.remedy = "less load, or more support of the body";
+      return bad;
+    }
   if (const Contact<B>* contact = hierarchy()[0].contact())
     if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
       return failure("contact", motion, 0, "surface point " + std::to_string(point));

@@ -81,6 +81,13 @@ class Simulation {
   /// Restores all levels and the time from the last snapshot.
   void return_to_last_good();
 
+  /// Keeps the state before each macro step from now on, for return_to_step_start(), or no longer.
+  /// Each step then copies the states of all levels once more.
+  void keep_step_starts(bool on);
+  /// Restores all levels and the time from before the last macro step, or from before the one that
+  /// an exception has left. Without keep_step_starts(), from the last snapshot.
+  void return_to_step_start();
+
   double time() const;                             ///< simulated time [s]
   double macro_step() const;                       ///< length of a macro step [s]
   long macro_steps() const;                        ///< number of macro steps taken so far
@@ -93,12 +100,21 @@ class Simulation {
   std::vector<Wrench> wrenches() const;
   /// Returns the wrenches over the last step, also where end_at() made it shorter [N, N m]. Waits.
   std::vector<Wrench> wrenches_of_last_step() const;
+  /// Returns what holds the vertices of body.fixed and body.prescribed now, on level 0 [N, N m].
+  /// Forces are evaluated at the present state, one pass over the elements; contact's are the last
+  /// ones, and a caller's own forces on these vertices are left out. Waits.
+  std::vector<Reaction> reactions() const;
   /// Returns for each obstacle the largest depth of the surface in it [m]; 0: outside. Grasped
   /// points are left out. Waits.
   std::vector<double> contact_depths() const;
   /// Returns the largest depth of the surface in other bodies, or in itself where it folds [m].
   /// Waits.
   double pair_depth() const;
+  /// Returns the pressure of contact at each point of the embedded surface [Pa]; 0 where nothing
+  /// touches, no values without contact. It is the sum of the normal forces at the point, in the
+  /// last sub-step of level 0, over a third of the area that the triangles around it have now.
+  /// Obstacles, other bodies and the body itself press; grasps and attachments do not. Waits.
+  std::vector<double> contact_pressure() const;
   /// Returns the work of friction so far, on the body and on everything that rubs it [J]. Work
   /// below 0 is energy that is lost, or stored where the body sticks. Waits.
   double friction_work() const;
@@ -162,13 +178,13 @@ class Simulation {
 
   /// Sets how an obstacle moves from now on, instead of the motion in the problem. Displacements
   /// are relative to the place in its shape's options. How it turns is not changed. Does not wait.
-  /// save() does not store this motion, and check() then compares no energies. Obstacles count from
-  /// 0; throws InputError where there is none of that number.
+  /// After this call, check() compares no energies. Obstacles count from 0; throws InputError where
+  /// there is none of that number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
   /// Sets how an obstacle turns from now on; none: it has the orientation of its shape's options.
   /// How it moves is not changed. An obstacle with mass and inertia follows by its coupling. Throws
-  /// InputError for one with mass but without inertia, which does not turn. Does not wait. save()
-  /// does not store this turn, and check() then compares no energies.
+  /// InputError for one with mass but without inertia, which does not turn. Does not wait. After
+  /// this call, check() compares no energies.
   void set_obstacle_turn(int obstacle, const std::optional<Turn>& turn);
   /// Moves an obstacle straight to this displacement [m] at the end of the next macro step. It
   /// starts from where its motion has it now, and stays at the end. For tools that a hand or a
@@ -212,9 +228,13 @@ class Simulation {
   /// continue from where they are at that time. The state stays.
   void set_time(double time);
 
+  /// Sets the acceleration of everything that is free from now on [m/s^2], instead of the
+  /// problem's. save() does not store it. Waits. Throws InputError for a number that is not finite.
+  void set_gravity(const Point& gravity);
+
   /// Saves everything that is needed to continue from here: states and histories of all levels,
-  /// time, energy budget, counters. Waits. Call it after a step that passed check(). A caller saves
-  /// what its own forces remember.
+  /// time, energy budget, counters, and how callers have moved obstacles. Waits. Call it after a
+  /// step that passed check(). A caller saves what its own forces remember.
   SavedState save() const;
   /// Restores a saved state, and continues as the saved simulation would have. Results have the
   /// same bits, given the same problem, precision and back end. Throws InputError for a state of
@@ -223,7 +243,12 @@ class Simulation {
   void restore(const SavedState& saved);
 
   /// Returns stress and volume ratio of a level's elements, computed on the device. Waits.
-  ElementFields element_fields(int level = 0) const;
+  /// `tensors`: also the whole stress, pressure and principal stretches.
+  ///
+  /// Where pressures of nodal elements are smoothed, all of them have the smoothed volume ratio,
+  /// with which the law works; an inverted domain has its own. With several regions at a vertex, a
+  /// value is the mean by volume; stretches are those of the mean F^T F.
+  ElementFields element_fields(int level = 0, bool tensors = false) const;
 
   /// Uses fewer threads from now on while other work takes cores, and more again when they are
   /// free. Where kernels wait for a thread without a core, fewer threads are faster. Results have

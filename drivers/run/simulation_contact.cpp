@@ -5,6 +5,7 @@
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica {
 
@@ -159,6 +160,18 @@ double Simulation<B>::pair_depth() const {
   const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact() || !finest.contact()->has_pairs()) return 0;
   return finest.response().depths(impl_->hierarchy().exec(), finest, impl_->time).back();
+}
+
+template <class B>
+std::vector<double> Simulation<B>::contact_pressure() const {
+  const Level<B>& finest = impl_->hierarchy()[0];
+  if (!finest.contact()) return {};
+  std::vector<double> pressure = finest.response().normal_forces(impl_->hierarchy().exec());
+  const std::vector<double> area =
+      areas_of_points({surface_positions(), impl_->problem.body.surface->triangles});
+  for (std::size_t p = 0; p < pressure.size(); ++p)
+    pressure[p] = area[p] > 0 ? pressure[p] / area[p] : 0;
+  return pressure;
 }
 
 template <class B>

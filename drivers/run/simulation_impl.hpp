@@ -10,6 +10,7 @@
 #include <plica/drivers/run/energy_meter.hpp>
 #include <plica/drivers/run/motion_commands.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/reactions.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
 
@@ -31,6 +32,7 @@ struct Simulation<B>::Impl {
   EnergyMeter<B> meter;
   // per level, rest positions of its vertices; empty until somebody has asked for positions
   std::vector<Vectors<B>> rest;
+  Reactions<B> held;
 
   // Present time and results
   double time = 0;
@@ -66,7 +68,8 @@ struct Simulation<B>::Impl {
   // for a while. The older one only where the stepper can repair.
   Snapshot kept;
   std::optional<Snapshot> fallback;
-  MotionCommands<B> motions;  // how callers have moved obstacles
+  std::optional<Snapshot> step_start;  // see keep_step_starts()
+  MotionCommands<B> motions;           // how callers have moved obstacles
   std::function<void()> after_repeated;
 
   StepControl control;  // division of macro steps that fail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 
@@ -117,6 +118,7 @@ std::optional<Diagnosis> Simulation<B>::Impl::cover(bool checks) {
       if (bad) return ++rejected, bad;
     }
     least = all, unsolved += left > 0 ? 1 : 0;
+    if (left > 0 && seeks_rest(problem.integration)) break;  // the next check ends the run
     if (size < 1 && control.start() == 0) fill(exec, wrench_sum, 0.0);
     if (size < 1)
       update_vertices<B>(exec, "plica::add_wrenches", numbers,
@@ -160,6 +162,17 @@ void Simulation<B>::Impl::keep_at_times() {
   motions.forget_before(fallback ? fallback->time : kept.time);
 }
 
+template <class B>
+void Simulation<B>::keep_step_starts(bool on) {
+  impl_->step_start.reset();
+  if (on) impl_->keep(impl_->step_start.emplace());
+}
+
+template <class B>
+void Simulation<B>::return_to_step_start() {
+  impl_->restore_snapshot(impl_->step_start ? *impl_->step_start : impl_->kept);
+}
+
 /// Takes a snapshot of the present state and time.
 template <class B>
 void Simulation<B>::Impl::keep(Snapshot& to) {
@@ -173,9 +186,11 @@ void Simulation<B>::Impl::keep(Snapshot& to) {
   to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
 }
 
-/// Names what states alone do not tell: relaxed stresses, memory of obstacles, contact.
+/// Names what states alone do not tell: what integrators remember, relaxed stresses, memory of
+/// obstacles, contact.
 template <class B>
 void Simulation<B>::Impl::name_history(Archive<B>& archive) {
+  for (auto& level : hierarchy().levels) level.integrator->name_memory(archive);
   for (auto& level : hierarchy().levels)
     if (level.viscosity) level.viscosity->name_fields(archive, level, {});
   archive.field("the memory of obstacles", memory);
@@ -272,6 +287,18 @@ void Simulation<B>::set_time(double time) {
   s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
   s.hierarchy().reset_history();
   s.reset_snapshots();
+}
+
+template <class B>
+void Simulation<B>::set_gravity(const Point& gravity) {
+  if (!gravity.allFinite()) throw InputError("gravity: expected finite numbers [m/s^2]");
+  Impl& s = *impl_;
+  s.problem.gravity = gravity;
+  for (auto& level : s.hierarchy().levels) level.set_gravity(gravity);
+  s.meter.set_gravity(gravity);
+  s.hierarchy().reset_history();
+  s.reset_snapshots();
+  s.open_budget();
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

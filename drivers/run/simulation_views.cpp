@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Queries of a simulation; and saving and restoring what it carries from one macro step to the
 // next.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <plica/core/archive.hpp>
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/loads/exchange.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
@@ -91,6 +94,12 @@ std::vector<ToolState> Simulation<B>::tools() const {
 template <class B>
 std::vector<CavityState> Simulation<B>::cavities() const {
   return impl_->hierarchy()[0].cavities(impl_->time);
+}
+
+template <class B>
+std::vector<Reaction> Simulation<B>::reactions() const {
+  return impl_->held.at(impl_->hierarchy()[0], impl_->rest_positions(0), impl_->time,
+                        !seeks_rest(impl_->problem.integration));
 }
 
 template <class B>
@@ -217,20 +226,46 @@ std::vector<Point> Simulation<B>::surface_velocities() const {
   return to_host<B>(impl_->hierarchy().exec(), v);
 }
 
+namespace {
+
+/// Adds stress, pressure and stretches of rows that are as in StressFields::tensors.
+void add_tensors(const std::vector<double>& rows, std::size_t numbers, ElementFields& to) {
+  for (const double* s = rows.data(); s != rows.data() + rows.size(); s += numbers) {
+    to.stress.insert(to.stress.end(), {s[0], s[1], s[2], s[3], s[5], s[4]});
+    to.pressure.push_back(-(s[0] + s[1] + s[2]) / 3);
+    const double* const c = s + 6;
+    Eigen::Matrix3d C;
+    C << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> ascending(C, Eigen::EigenvaluesOnly);
+    for (const Eigen::Index k : {2, 1, 0})
+      to.principal_stretches.push_back(std::sqrt(std::max(0.0, ascending.eigenvalues()[k])));
+  }
+}
+
+}  // namespace
+
 template <class B>
-ElementFields Simulation<B>::element_fields(int level) const {
+ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
   const Level<B>& of = impl_->level(level);
   const bool nodal = of.model.rows.slices > 0;
   const int rows = nodal ? of.model.vertices : of.model.tets;
-  const Scalars<B> von_mises("plica::von_mises", rows), J("plica::J", rows);
+  StressFields<B> fields{Scalars<B>("plica::von_mises", rows), Scalars<B>("plica::J", rows)};
+  constexpr int numbers = StressFields<B>::numbers;
+  if (tensors) {
+    fields.tensors = Scalars<B>("plica::tensors", rows * numbers);
+    if (nodal)
+      fields.of_domains = Scalars<B>("plica::tensors_of_domains", of.model.rows.slots() * numbers);
+  }
   if (of.viscosity) of.viscosity->prepare_at(of.exec(), of, impl_->time);
-  of.elasticity().stress(of.exec(), of, of.state.u, von_mises, J);
+  of.elasticity().stress(of.exec(), of, of.state.u, fields);
   of.exec().fence("plica::element_fields");
   const auto values = [](const Scalars<B>& field) {
     const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
     return std::vector<double>(host.data(), host.data() + host.extent(0));
   };
-  return {nodal, values(von_mises), values(J)};
+  ElementFields all{nodal, values(fields.von_mises), values(fields.J)};
+  if (tensors) add_tensors(values(fields.tensors), numbers, all);
+  return all;
 }
 
 namespace {
@@ -263,6 +298,7 @@ void name_all(Impl& s, Archive<B>& archive) {
   archive.field("the obstacles' memory", s.memory);
   name_snapshot<B>(s.kept, archive);
   if (s.fallback) name_snapshot<B>(*s.fallback, archive);
+  s.motions.name_fields(archive);
   archive.finish();
 }
 
@@ -287,6 +323,9 @@ void Simulation<B>::restore(const SavedState& saved) {
     Archive archive(task, bytes);
     name_all<B>(*impl_, archive);
   }
+  if (const Contact<B>* contact = impl_->hierarchy()[0].contact())
+    impl_->motions.restore_snapshot(*contact, impl_->time);
+  if (impl_->motions.commanded()) impl_->budget_known = false;
   impl_->hierarchy().clear_flags();
 }
 

@@ -5,6 +5,7 @@
 #include <plica/core/text.hpp>
 #include <plica/core/time_functions.hpp>
 #include <plica/drivers/body/body_parts.hpp>
+#include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/elastic/elements.hpp>
@@ -16,6 +17,7 @@
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/spaces/coarse_spaces.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/compare_levels.hpp>
 #include <type_traits>
 
 namespace plica {
@@ -46,6 +48,11 @@ void check_together(const std::string& path, const std::vector<Knot>& knots) {
 
 void check_together(const std::string& path, const TwistOptions& o) {
   check_apart(path, o.from, o.to);
+}
+
+void check_together(const std::string& path, const FixedVertices& o) {
+  if (!o.along.empty() && o.slide)
+    throw InputError(path + " has along and slide; expected one of them, or neither");
 }
 
 void check_together(const std::string& path, const InitialOptions& o) {
@@ -156,7 +163,7 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
                      ".mass, or no coupling");
   if (o.mass && moves(o.motion) && !(o.coupling.stiffness > 0 || o.coupling.damping))
     throw InputError(path + " has mass and a motion, but nothing that makes it follow; expected " +
-                     path + ".coupling, or no motion: a free tool starts at rest");
+                     path + ".coupling, which pulls it along, or no motion");
   check_inertia(path, o);
   if (!o.grasp) return;
   check_grasp(path + ".grasp", *o.grasp);
@@ -216,6 +223,12 @@ void validate_mesh(const TetMesh& mesh, int level) {
       if (v < 0 || v >= vertices)
         refuse(": group '" + name + "' has vertex " + std::to_string(v) + " of " +
                std::to_string(vertices));
+  for (const auto& [name, set] : mesh.triangle_sets)
+    for (const auto& triangle : set)
+      for (const int v : triangle)
+        if (v < 0 || v >= vertices)
+          refuse(": a triangle of group '" + name + "' has vertex " + std::to_string(v) + " of " +
+                 std::to_string(vertices));
   if (!mesh.region.empty() && mesh.region.size() != mesh.tets.size())
     refuse(" has regions for " + std::to_string(mesh.region.size()) + " of " +
            std::to_string(mesh.tets.size()) + " tetrahedra; expected all or none");
@@ -240,7 +253,7 @@ void check_elements(const Body& body, std::size_t levels) {
                      std::to_string(levels) + " levels, got a list of " +
                      std::to_string(body.element.size()));
   const MaterialInfo& material = *find_material(body.material.model);
-  if (body.pressure == "smoothed" && !(material.with_lambda && material.rotation_invariant))
+  if (body.pressure == "smoothed" && !material.smooths_dilatation)
     throw InputError("body.volumetric_smoothing is smoothed, but material " +
                      std::string(material.name) +
                      " has no stiffness for the volume alone at finite strains; expected plain or "
@@ -266,6 +279,22 @@ void check_coarsen(const Problem& problem, std::size_t levels) {
       throw InputError(path + " is " + std::to_string(sizes[i]) + " after " +
                        std::to_string(sizes[i - 1]) +
                        "; expected fewer points from level to level");
+  }
+}
+
+/// Throws InputError where the finest level covers a part of the body: every cycle would step that
+/// part alone. What a cycle expects of coarse levels is checked at its set-up.
+void check_finest_level(const Body& body) {
+  const auto size = [&](const TetMesh& mesh) {
+    return mesh_size(mesh, region_densities(body, mesh));
+  };
+  MeshSize finest;
+  for (std::size_t i = 0; i < body.levels.size() && body.levels.size() > 1; ++i) {
+    const MeshSize one = size(body.levels[i]);
+    if (i == 0)
+      finest = one;
+    else if (covers_part(finest, one))
+      throw InputError("body.levels: " + compare_levels(finest, one, i).sentence);
   }
 }
 
@@ -315,11 +344,8 @@ void validate_options(const Problem& problem, std::size_t levels) {
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i)
     check_obstacle("contact.obstacles." + std::to_string(i), problem.contact.obstacles[i]);
   validate_methods(problem.integration, levels);
-  if (damps_by_stiffness(problem.body) && problem.integration.cycle == "him")
-    throw InputError(
-        "body.damping.stiffness is above 0, but cycle him is stable for forces without it only; "
-        "use "
-        "body.damping.mass or another cycle");
+  if (problem.integration.cycle == "him")
+    if (const std::string why = refused_by_him(problem); !why.empty()) throw InputError(why);
 }
 
 void validate_meshes(const Problem& problem) {
@@ -329,11 +355,13 @@ void validate_meshes(const Problem& problem) {
   for (std::size_t i = 0; i < body.levels.size(); ++i)
     validate_mesh(body.levels[i], static_cast<int>(i));
   check_regions(body);
+  check_finest_level(body);
   check_points(body);
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
   validate_contact(problem);
   validate_cavities(problem);
+  validate_rest(problem);
   starts_in_obstacles(problem);
 }
 

@@ -23,6 +23,14 @@ void validate_meshes(const Problem& problem);
 /// Throws InputError.
 void validate_methods(const IntegrationOptions& options, std::size_t levels);
 
+/// Checks that a body whose rest is sought has something that holds it, and nothing that moves by
+/// itself. Throws InputError.
+void validate_rest(const Problem& problem);
+
+/// Returns why cycle him cannot step this problem, as a sentence with the option; empty: it can, as
+/// far as is known before set-up.
+std::string refused_by_him(const Problem& problem);
+
 /// Checks obstacles, bodies that touch each other, and attachments. Throws InputError.
 void validate_contact(const Problem& problem);
 

@@ -7,6 +7,7 @@
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -102,7 +103,7 @@ void check_pairs(const Problem& problem) {
 }  // namespace
 
 std::string needs_matrix(const IntegrationOptions& options) {
-  bool implicit = false;
+  bool implicit = seeks_rest(options);
   for (const std::string& name : options.integrator) {
     if (name == VCycleEuler::name) return "integration.integrator is " + name;
     implicit = implicit || !is_explicit(name);
@@ -113,18 +114,11 @@ std::string needs_matrix(const IntegrationOptions& options) {
              : "";
 }
 
-/// Refuses given volumes in cycle him too: its inertia does not know the stiffness of a fluid.
 void validate_cavities(const Problem& problem) {
   const auto& loads = problem.body.loads;
-  const IntegrationOptions& o = problem.integration;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (!std::holds_alternative<EnclosedVolume>(loads[i].load)) continue;
-    const std::string name = "body.loads." + std::to_string(i) + ".enclosed_volume";
-    if (o.cycle == "him" || o.cycle == "auto")
-      throw InputError("integration.cycle is " + o.cycle + ", but " + name +
-                       " needs cycle single, or follower_pressure instead");
-    refuse_matrix(problem, name);
-  }
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (std::holds_alternative<EnclosedVolume>(loads[i].load))
+      refuse_matrix(problem, "body.loads." + std::to_string(i) + ".enclosed_volume");
 }
 
 void validate_contact(const Problem& problem) {

@@ -8,6 +8,7 @@
 #include <plica/drivers/elastic/elements.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/meshes/compare_levels.hpp>
 
@@ -47,8 +48,11 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
   look({});
   for (const auto& [name, region] : body.regions) look(region);
   const Element element = element_of(body, 0);
-  const double across = elements_across(body.levels.front());
   const bool linear = element == Element::linear;
+  constexpr double many = 4, most = 0.7;
+  double across = elements_across(body.levels.front());
+  // A plate of one cell: its volume and surface alone look like two cells and more
+  if (!linear && across < many && part_one_across(body.levels.front()) > most) across = 1;
   if (linear ? poisson <= 0.4 && across >= 8 : across >= 1.2) return;
   const auto bends = [&](Element one) { return number(bending_ratio(one, poisson, across), 2); };
   sentences.push_back(text(
@@ -74,7 +78,7 @@ void doubt_regions(const Body& body, std::vector<std::string>& sentences) {
 }
 
 // Warns of a tool that is lighter than what it touches: its own inertia then counts for nothing,
-// and contact throws it about.
+// and contact accelerates it as nothing real.
 void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
   double mass = -1;  // mean mass of a vertex [kg]
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i) {
@@ -86,8 +90,8 @@ void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
     if (*own < mass)
       sentences.push_back(text("contact.obstacles.", i, ".mass: ", number(*own, 3),
                                " kg is less than a vertex of the body has, ", number(mass, 3),
-                               " kg: contact throws it about; expected a tool that is not lighter "
-                               "than what it touches"));
+                               " kg: contact will accelerate it unrealistically; expected a tool "
+                               "that is not lighter than what it touches"));
   }
 }
 
@@ -100,6 +104,18 @@ void doubt_integrator(const Problem& problem, std::vector<std::string>& sentence
                           ": motion where something touches rings on from step to step, and forces "
                           "of tools alternate; "
                           "expected bdf2, sdirk2, implicit_euler or an explicit integrator");
+}
+
+// Says what the cycle rest does not use.
+void tell_of_rest(const Problem& problem, std::vector<std::string>& sentences) {
+  if (!seeks_rest(problem.integration)) return;
+  if (damps_by_mass(problem.body) || damps_by_stiffness(problem.body))
+    sentences.push_back(
+        "body.damping is not used: integration.cycle is rest, which has no motion to damp");
+  if (is_viscous(problem.body))
+    sentences.push_back(
+        "body.material.prony: integration.cycle is rest, where all stress that relaxes has "
+        "relaxed, however long that takes");
 }
 
 }  // namespace
@@ -119,6 +135,7 @@ std::vector<std::string> problem_warnings(const Problem& problem) {
   doubt_regions(problem.body, sentences);
   doubt_tools(problem, sentences);
   doubt_integrator(problem, sentences);
+  tell_of_rest(problem, sentences);
   for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
   if (const Body& body = problem.body;
       starts_deformed(body.initial) && !recovers(body.material.model)) {

@@ -66,6 +66,8 @@ std::string too_short(double steps) {
               " on");
 }
 
+std::string without_him(const std::string& why) { return "him is refused: " + why; }
+
 IntegrationOptions stepped(IntegrationOptions o, const char* integrator,
                            std::optional<double> step) {
   o.cycle = "single", o.integrator = {integrator}, o.macro_step = step;
@@ -100,6 +102,8 @@ class CycleTrials {
 
   CycleChoice all() {
     if (!has_coarse_levels(problem_.integration.cycle, problem_.body)) return std::move(choice_);
+    if (const std::string why = refused_by_him(problem_); !why.empty())
+      return choice_.reason = without_him(why), std::move(choice_);
     try_out();
     if (choice_.single_time > 0) choice_.spent = now_() - begun_;
     return std::move(choice_);
@@ -388,6 +392,8 @@ std::string trials_ahead(const Problem& problem, double duration, const LevelRep
   if (problem.integration.cycle != "auto") return {};
   if (!has_coarse_levels("auto", problem.body))
     return "a run takes single: there is no coarser level";
+  if (const std::string why = refused_by_him(problem); !why.empty())
+    return "a run takes single: " + without_him(why);
   const double steps = duration / macro_step;
   if (steps < fewest_steps()) return "a run takes single: " + too_short(steps);
   const double early = before_touching * trial_steps * alone.critical_step;

@@ -70,8 +70,9 @@ Problem level_0_alone(Problem problem);
 /// before a Simulation is constructed, and construct the Simulation with the problem that
 /// with_choice() returns.
 ///
-/// Level 0 alone is taken without trials where there is no other level. It is also taken where the
-/// run is so short that timing and trials could take more than trial_part of it.
+/// Level 0 alone is taken without trials where there is no other level, and where him cannot step
+/// the problem: see refused_by_him(). It is also taken where the run is so short that timing and
+/// trials could take more than trial_part of it.
 ///
 /// Else short runs over 128 critical steps decide. Level 0 alone (central differences at 0.45 of
 /// the critical step) is the reference. Cycle `him` is tried at 8 critical steps, then at 16 and

@@ -25,8 +25,9 @@ bool starts_turning(const InitialOptions& initial) {
 
 bool something_drives(const Problem& p) {
   return !p.body.loads.empty() || p.surface_forces ||
-         std::ranges::any_of(p.body.prescribed,
-                             [](const PrescribedMotion& given) { return moves(given.motion); });
+         std::ranges::any_of(p.body.prescribed, [](const PrescribedMotion& given) {
+           return given.rotate || moves(given.motion);
+         });
 }
 
 /// Pose of an obstacle over time, by its motion and turn.

@@ -2,6 +2,7 @@
 // Implicit integrators. Each sets the base (u~, v~) of a stage, which the stage solver then solves
 // (stage_solver.hpp). ImplicitStep treats steps that are not solved.
 #include <plica/drivers/time/implicit_step.hpp>
+#include <plica/drivers/time/rest_step.hpp>
 #include <plica/kernels/time/stage_kernels.hpp>
 
 namespace plica {
@@ -267,6 +268,7 @@ class Sdirk2Step final : public ImplicitStep<B> {
       level.timed("contact", [&] {
         level.response().end_stage(level.exec(), level, level.state);
         level.response().add_last_forces(level.exec(), level, level.f);
+        hold_sliding(level.exec(), level, level.f);
       });
     prescribe(level.exec(), level, level.state, time + part, part);
     update_vertices<B>(level.exec(), "plica::sdirk2_base", level.model.vertices,
@@ -291,6 +293,7 @@ std::unique_ptr<Integrator<B>> Sdirk2::make(const LevelData<B>& level,
 template <class B>
 std::unique_ptr<Integrator<B>> ImplicitEuler::make(const LevelData<B>& level,
                                                    const IntegratorParts<B>& parts) {
+  if (parts.rest > 0) return std::make_unique<RestStep<B>>(level, parts);
   return std::make_unique<ImplicitEulerStep<B>>(level, parts);
 }
 template <class B>

@@ -41,6 +41,9 @@ class ImplicitStep : public Integrator<B> {
   void name_fields(Archive<B>& archive) override {
     archive.number(surprised_), stages_.name_fields(archive);
   }
+  void name_memory(Archive<B>& archive) override {
+    archive.number(surprised_), stages_.name_memory(archive);
+  }
 
  protected:
   /// Computes a step from `time` over h [s]; returns false where a stage is not solved. The level's

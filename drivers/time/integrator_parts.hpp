@@ -20,6 +20,9 @@ struct IntegratorParts {
   double edge = 0;
   /// makes the linear solver, for implicit integrators
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;
+  /// part of the forces that may be unbalanced at rest, see RestOptions; 0: the level moves
+  double rest = 0;
+  double critical_step = 0;  ///< critical step of symplectic Euler, where `rest` is above 0 [s]
 };
 
 /// Instantiates Kind::make() for a backend, which is the last argument. It is used in the source

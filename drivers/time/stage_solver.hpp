@@ -8,9 +8,8 @@
 #include <plica/drivers/linear/linear_solver.hpp>
 #include <plica/drivers/time/incremental_potential.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
-#include <plica/kernels/elastic/mixed_pressures.hpp>
+#include <plica/drivers/time/stage_sums.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
-#include <plica/kernels/time/energies.hpp>
 #include <plica/kernels/time/stage_kernels.hpp>
 #include <plica/kernels/time/updates.hpp>
 #include <utility>
@@ -20,8 +19,8 @@ namespace plica {
 /// Solver of the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a
 /// level's state. It uses one linear solve about the start of the step (linearly implicit: Baraff &
 /// Witkin 1998), or Newton's method on the incremental potential (Gast et al. 2015). Where nodal
-/// elements smooth their pressures, mixed pressures are kept from solve to solve:
-/// kernels/elastic/mixed_pressures.hpp.
+/// elements smooth their pressures, mixed dilatations are kept from solve to solve:
+/// kernels/elastic/mixed_dilatations.hpp.
 template <class B>
 class StageSolver {
  public:
@@ -32,9 +31,13 @@ class StageSolver {
       : options_(parts.implicit),
         edge_(parts.edge),
         may_invert_(parts.may_invert),
-        judged_(parts.implicit.newton_tolerance.value_or(
-            parts.conserves && !parts.contact ? conserving : balanced)),
-        aim_(parts.implicit.newton_tolerance ? judged_ : judged_ * finer()),
+        rest_(parts.rest),
+        judged_(rest_ > 0 ? rest_
+                          : parts.implicit.newton_tolerance.value_or(
+                                parts.conserves && !parts.contact ? conserving : balanced)),
+        aim_(rest_ > 0                         ? below_rest * rest_
+             : parts.implicit.newton_tolerance ? judged_
+                                               : judged_ * finer()),
         solver_(parts.make_linear_solver()),
         base_("stage.base", level.model.vertices),
         right_side_("plica::stage.right_side", level.model.vertices),
@@ -46,13 +49,8 @@ class StageSolver {
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
     if (!parts.contact && !iterates()) return;
-    const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
-    von_mises_ = Scalars<B>("plica::stage.von_mises", elements),
-    volume_ = Scalars<B>("plica::stage.volume", elements);
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
-    blocks_ = BlockSums<B>(static_cast<int>(
-        std::max({level.partial.extent(0), level.f.extent(0), volume_.extent(0)})));
-    result_ = Doubles<B>("plica::stage.result", 7);
+    sums_ = StageSums<B>(level);
   }
 
   /// Returns the base (u~, v~), which must be set before solve().
@@ -69,7 +67,7 @@ class StageSolver {
     const Scalars<B> pressure = std::exchange(level.nodal.pressure, carrying_);
     if (fresh_) {
       fill(level.exec(), change_, Real(0));
-      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      level.elasticity().carry_dilatations(level.exec(), level, level.state.u, change_);
       fresh_ = 0;
     }
     const bool solved = solve_stage(level, time, ahead, weights);
@@ -77,15 +75,19 @@ class StageSolver {
     return solved;
   }
 
+  /// Returns whether the last stage of a body that seeks rest began at rest: its forces were
+  /// balanced without inertia. unsolved() is then, and else, the part of them that was not.
+  bool began_at_rest() const { return at_rest_; }
+  /// Computes the mixed dilatations of the next stage from the state that it starts from.
+  void forget_dilatations() { fresh_ = 1; }
+  /// Returns the largest way of a vertex since the stage's start [m]. Waits for the device.
+  double farthest(const Level<B>& level) const { return sums_.farthest(level, base_.u); }
+
   /// Returns whether Newton's method may be used: then unsolved() tells which stages were not
   /// solved.
-  bool judges() const { return result_.extent(0) > 0; }
+  bool judges() const { return sums_.any(); }
   /// Returns the kinetic energy of the level's state [J]. Waits for the device.
-  double kinetic(const Level<B>& level) const {
-    reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
-                 KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
-    return host_values(level.exec(), result_)[0];
-  }
+  double kinetic(const Level<B>& level) const { return sums_.kinetic(level); }
   /// Returns the unbalanced part of the forces in the last stage that Newton's method did not
   /// solve.
   double unsolved() const { return unsolved_; }
@@ -111,10 +113,15 @@ class StageSolver {
     archive.number(residual_), archive.number(projecting_);
     if (carries())
       archive.number(updates_), archive.number(fresh_),
-          archive.field("the carried pressures", carried_);
-    archive.owns(base_, right_side_, change_, dead_, carrying_, last_carried_, von_mises_, volume_,
-                 blocks_.view(), result_);
+          archive.field("the carried dilatations", carried_);
+    archive.owns(base_, right_side_, change_, dead_, carrying_, last_carried_);
+    sums_.name_fields(archive);
     solver_->name_fields(archive);
+  }
+  /// Names what steps that are taken again must begin with; see Integrator::name_memory().
+  void name_memory(Archive<B>& archive) {
+    archive.number(projecting_);
+    if (carries()) archive.number(fresh_), archive.field("the carried dilatations", carried_);
   }
 
  private:
@@ -129,6 +136,9 @@ class StageSolver {
   // part of the least volume ratio that a change of a state must keep
   static constexpr double least_volume_part = 0.2;
   static constexpr double first_tolerance = 0.01;  // relative tolerance of the first system
+  // for rest: part of its tolerance that a stage is solved to; part of the residual that one must
+  // leave at most
+  static constexpr double below_rest = 0.1, progress = 0.5;
   // maximum iterations where contact alone needs them; systems in a row with projected tangents
   static constexpr int contact_iterations = 20, projections = 3;
   // part of a stage's energies: smaller changes of the potential are lost in rounding
@@ -137,25 +147,26 @@ class StageSolver {
   ImplicitOptions options_;
   double edge_;      ///< mean edge length [m]
   bool may_invert_;  ///< whether elements may invert
+  double rest_;      ///< part of the forces that may be unbalanced at rest; 0: the body moves
   /// unbalanced parts of the forces: a stage with judged_ or less is solved; Newton's method ends
   /// at aim_ or less
   double judged_, aim_;
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
-  /// buffer whose end is carried_; mixed pressures; mixed pressures before the last solve
+  /// buffer whose end is carried_; mixed dilatations; mixed dilatations before the last solve
   Scalars<B> carrying_, carried_, last_carried_;
-  BlockSums<B> blocks_;
-  Doubles<B> result_;
+  StageSums<B> sums_;
   long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, searches_ = 0;
   ContactStage contact_;
-  /// number of updates of the mixed pressures; 1 where they must still be computed from a state
+  /// number of updates of the mixed dilatations; 1 where they must still be computed from a state
   long updates_ = 0, fresh_ = 1;
   double residual_ = 0, unsolved_ = 0;
-  bool cut_ = false;  ///< whether the last change was shortened
+  double loads_ = 0;      ///< norm of gravity and loads, where the body seeks rest [N]
+  bool at_rest_ = false;  ///< see began_at_rest()
+  bool cut_ = false;      ///< whether the last change was shortened
   /// number of further systems whose tangents are projected without a new reason
   long projecting_ = 0;
-  Scalars<B> von_mises_, volume_;  ///< stress and volume ratio of elements
 
   bool iterates() const { return options_.newton_iterations > 1; }
   bool carries() const { return carried_.extent(0) > 0; }
@@ -213,14 +224,16 @@ class StageSolver {
     update_vertices<B>(
         level.exec(), "plica::stage_right_side", n,
         StageRightSide<B>{stage, force, level.partial, right_side_, gap, by_product});
+    hold_sliding(level.exec(), level, right_side_);
     level.timed("solve",
                 [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
+    hold_sliding(level.exec(), level, change_);
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
       copy(level.exec(), last_carried_, carried_);
-      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      level.elasticity().carry_dilatations(level.exec(), level, level.state.u, change_);
       ++updates_;
     }
     return out;
@@ -243,16 +256,25 @@ class StageSolver {
       level.timed("contact", [&] {
         level.response().begin_stage(level.exec(), level, level.state, time, contact_);
       });
-    level.dead_loads(end, dead_);
+    level.dead_loads(end, dead_), hold_sliding(level.exec(), level, dead_);
+    if (rest_ > 0) {
+      copy(level.exec(), right_side_, dead_);
+      loads_ = sums_.load_norm(level, end, right_side_);
+    }
     fill(level.exec(), change_, Real(0));
     level.linearise(level.state, time, w, ahead, level.f);
     IncrementalPotential now = here(level, end, w);
-    if (!may_invert_) now.volume = least_volume(level);
-    if (touches(level))
-      level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
+    if (!may_invert_) now.volume = sums_.least_volume(level);
+    if (touches(level)) {
+      const ContactBalance by =
+          level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
+      if (rest_ > 0) now.forces += by.forces;
+    }
     // A body at rest without given motions is solved at once
-    now.solved = level.prescribed.count == 0 &&
-                 std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    now.solved = rest_ > 0 ? begins_at_rest(level, ahead, w, now)
+                           : level.prescribed.count == 0 &&
+                                 std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    const double first = now.residual;
     const int most = iterates() ? options_.newton_iterations : contact_iterations;
     const bool once = !solver_->converges() && touches(level);
     // The change is 0: this only makes the displacements of the stage consistent with its
@@ -275,10 +297,23 @@ class StageSolver {
     }
     level.flags = flags;
     const double unbalanced = now.residual / std::max(now.forces, 1e-300);
-    if (!is_balanced(now, w, 0)) residual_ = std::max(residual_, unbalanced);
+    if (rest_ == 0 && !is_balanced(now, w, 0)) residual_ = std::max(residual_, unbalanced);
     if (once || now.solved || is_balanced(now, w, judged_)) return true;
-    unsolved_ = unbalanced;
+    if (rest_ > 0 && now.residual <= progress * first) return true;
+    unsolved_ = std::isnan(unbalanced) ? 1 : unbalanced;
     return false;
+  }
+
+  /// Returns whether a stage begins at rest, and sets its residual: the forces without inertia,
+  /// which vanishes there. Given motions, obstacles too, must have come to the end of the step.
+  bool begins_at_rest(const Level<B>& level, double ahead, const ImplicitWeights& w,
+                      IncrementalPotential& now) {
+    now.residual = std::sqrt(vertex_terms(level, w, 0)[1]);
+    const bool moves = ahead > 0 && (level.prescribed.count > 0 || touches(level));
+    unsolved_ = is_balanced(now, w, 0) ? 0 : now.residual / std::max(now.forces, 1e-300);
+    at_rest_ = !moves && is_balanced(now, w, judged_);
+    if (at_rest_) residual_ = std::max(residual_, unsolved_);
+    return at_rest_;
   }
 
   /// Returns whether the unbalanced force is small enough. Limits are newton_residual, `part` of
@@ -320,7 +355,7 @@ class StageSolver {
                                               double tolerance) {
     const double end = time + ahead;
     // In the first system given motions move: potentials before and after cannot be compared
-    const bool first = k == 0, moving = first && level.prescribed.count > 0;
+    const bool first = k == 0, moving = first && ahead > 0 && level.prescribed.count > 0;
     const bool may_project = options_.tangent == "auto";
     bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
     if (may_project && projecting_ > 0) --projecting_;
@@ -329,7 +364,7 @@ class StageSolver {
       if (touches(level) && !solver_->converges()) return now;
       const double slope = vertex_terms(level, w, 1)[2];
       // In the first system contact is linearised ahead of the state, where the velocities lead to
-      const bool ahead_of_it = from_start && touches(level);
+      const bool ahead_of_it = from_start && ahead > 0 && touches(level);
       const bool leads_up = out.indefinite || (!ahead_of_it && !(slope < 0)),
                  last = projected || !may_project;
       double part = 1;
@@ -356,7 +391,7 @@ class StageSolver {
                                               bool moving, int most, double& part) {
     cut_ = false;
     for (int i = 0;; ++i) {
-      const double volume = may_invert_ ? 1 : least_volume(level);
+      const double volume = may_invert_ ? 1 : sums_.least_volume(level);
       if (may_invert_ || !(now.volume > 0) || volume >= least_volume_part * now.volume) {
         level.linearise(level.state, end, w, 0, level.f);
         IncrementalPotential next = here(level, end, w);
@@ -394,7 +429,7 @@ class StageSolver {
   }
 
   /// Returns `now` for the state before the last change, with its value at the present mixed
-  /// pressures.
+  /// dilatations.
   IncrementalPotential before(Level<B>& level, double end, const ImplicitWeights& w,
                               IncrementalPotential now) const {
     if (!carries()) return now;
@@ -403,15 +438,6 @@ class StageSolver {
     now.value += stored(level, end);
     retreat(level, w, -1);
     return now;
-  }
-
-  /// Returns the least volume ratio of an element, 1 at most.
-  double least_volume(const Level<B>& level) const {
-    level.elasticity().stress(level.exec(), level, level.state.u, von_mises_, volume_);
-    reduce<B, 1, LackOfVolume<B>, Sums<1, 1>>(level.exec(), "plica::least_volume",
-                                              static_cast<int>(volume_.extent(0)), {volume_},
-                                              blocks_, result_);
-    return 1 - host_values(level.exec(), result_)[0];
   }
 
   void retreat(const Level<B>& level, const ImplicitWeights& w, double part) const {
@@ -425,37 +451,29 @@ class StageSolver {
     if (carries()) copy(level.exec(), carried_, last_carried_);
   }
 
-  std::array<double, 7> read(const Exec& exec) const {
-    const std::vector<double> sums = host_values(exec, result_);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
-  }
   /// Returns the sums of StagePotential. `back`: 1 for the state before the last change, while
   /// level.f are the forces there; 0 for the present state.
   std::array<double, 7> vertex_terms(const Level<B>& level, const ImplicitWeights& w,
                                      double back) const {
-    reduce<B, 7>(level.exec(), "plica::stage_potential", level.model.vertices,
-                 StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)},
-                 blocks_, result_);
-    return read(level.exec());
+    hold_sliding(level.exec(), level, level.f);
+    return sums_.of(level, {at(level, w), level.f, dead_, change_, static_cast<Real>(back)});
   }
   /// Returns the potential of the state whose forces are in level.f, without contact.
   IncrementalPotential potential(const Level<B>& level, double end,
                                  const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     const double energy = stored(level, end);
-    return {terms[0] + energy,
-            std::sqrt(terms[1]),
-            terms[2],
-            terms[3] + std::abs(energy),
-            std::sqrt(terms[4]) + std::sqrt(terms[5]),
-            std::sqrt(terms[6])};
+    return {
+        terms[0] + energy,
+        std::sqrt(terms[1]),
+        terms[2],
+        terms[3] + std::abs(energy),
+        rest_ > 0 ? loads_ + sums_.reaction_norm(level) : std::sqrt(terms[4]) + std::sqrt(terms[5]),
+        std::sqrt(terms[6])};
   }
   /// Returns the energy of elements and of pressures that follow the body at the level's state [J].
   double stored(const Level<B>& level, double end) const {
-    level.incremental_energy(level.state);
-    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
-                 FirstComponent<B>{level.partial}, blocks_, result_);
-    return read(level.exec())[0] + level.term_energy(end);
+    return sums_.stored(level) + level.term_energy(end);
   }
 };
 

@@ -2,13 +2,13 @@
 #pragma once
 #include <plica/core/launch.hpp>
 #include <plica/core/patches.hpp>
+#include <plica/kernels/elastic/stress_fields.hpp>
 #include <plica/kernels/elastic/viscous_history.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica {
 
-/// Stress of von Mises [Pa] and volume ratio J of every tetrahedron, F = I + grad u. It is for
-/// output, one element at a time.
+/// Stress and strain of every tetrahedron, F = I + grad u. It is for output, one element at a time.
 template <class B, class Material>
 struct ElasticStress {
   using Real = typename B::Real;
@@ -16,8 +16,8 @@ struct ElasticStress {
   static constexpr int lanes = B::lanes;
   Patches<B> patches;
   Vectors<B> u;
-  Scalars<B> equivalent, ratio;  ///< [tets of the mesh]
-  Scalars<B> relaxed;            ///< relaxed stress; see ViscousHistory
+  StressFields<B> fields;
+  Scalars<B> relaxed;  ///< relaxed stress; see ViscousHistory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = league_rank(team), first = patches.first_pack(p) * lanes,
@@ -42,18 +42,19 @@ struct ElasticStress {
         F, load_constants<Material, Real>(patches.constants, patch, patches.fibres, slot));
     if (relaxed.extent(0) > 0)
       sigma = sigma - pushed_forward(F, load_symmetric<B, Real>(relaxed, slot));
-    equivalent(tet) = von_mises(sigma);
-    ratio(tet) = determinant(F);
+    fields.von_mises(tet) = von_mises(sigma);
+    fields.J(tet) = determinant(F);
+    if (fields.tensors.extent(0) > 0) store_tensors<B>(fields.tensors, tet, sigma, F);
   }
 };
 
 template <class B, class Material>
 void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-                    const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& relaxed) {
+                    const StressFields<B>& fields, const Scalars<B>& relaxed) {
   if (patches.count == 0) return;
   launch("plica::elastic_stress",
          Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
-         ElasticStress<B, Material>{patches, u, von_mises, J, relaxed});
+         ElasticStress<B, Material>{patches, u, fields, relaxed});
 }
 
 }  // namespace plica

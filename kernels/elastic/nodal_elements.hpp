@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/elastic/nodal_rows.hpp>
+#include <plica/kernels/elastic/stress_fields.hpp>
 #include <plica/kernels/elastic/viscous_history.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -20,12 +21,14 @@
 //   Q_a = P(F_a) - beta mu G_a,   f_b = -sum_a Q_a C_ab - beta mu sum_a w_ab u_a.
 //
 // Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest
-// (`bulk_excess`) acts on J~ = S J, a mean over neighbours: + sum_a V_a bulk_excess/2 (J~_a - 1)^2,
-// whose stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
+// (`bulk_excess`) acts on x~ = S x, a mean over neighbours of the law's dilatation x(F), which is J
+// in most laws: + sum_a V_a bulk_excess U(x~_a) with the U of the law. Its stress is p~_a dx/dF
+// with p~ = S [excess U'(x~)], V S symmetric. Where F is the same everywhere, x~ = x, and the
+// energy is that of Psi with the whole lambda.
 //
 // Damping by stiffness (damping_stress.hpp) acts on the strain rates of the domains, and on that of
-// J~ by tau S [excess S (cof F : Fdot)] cof F. It does not act on the bracket: where strain varies,
-// the rate of F_t - F_a is not 0 for a body that only turns.
+// x~ by tau S [excess U''(x~) S (dx/dF : Fdot)] dx/dF. It does not act on the bracket: where strain
+// varies, the rate of F_t - F_a is not 0 for a body that only turns.
 namespace plica {
 
 /// Constants, fibres, stabiliser and damping of the regions; see NodalRows.
@@ -39,33 +42,26 @@ struct RowScales {
         damping(rows.damping) {}
 };
 
-/// Pressures from smoothed volumes, and their changes, in the order of the slots; `stride` numbers
-/// for each slot.
-template <class B, bool Smoothed>
+/// Pressures from smoothed dilatations, and their changes, in the order of the slots; `stride`
+/// numbers for each slot.
+template <class B>
 struct RowPressure {
   Scalars<B> pressure;
   int stride = 1;
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T at(int slot, int k) const {
-    T p;
+  KOKKOS_INLINE_FUNCTION RowPack<B> at(int slot, int k) const {
+    RowPack<B> p;
     for (int l = 0; l < B::lanes; ++l) set_lane(p, l, pressure((slot + l) * stride + k));
     return p;
   }
 };
 
-/// Returns the stress of damping divided by its time, for a change dF of a domain's F. The change
-/// of the pressure is included.
-template <class B, class Material, bool Smoothed>
-KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(
-    const Mat3<RowPack<B>>& F, const Mat3<RowPack<B>>& dF,
-    const typename Material::template Constants<RowPack<B>>& c,
-    const RowPressure<B, Smoothed>& pressure, int slot) {
-  using T = RowPack<B>;
-  const Mat3<T> P = DampingTangent<Material, T>{F, c}(dF);
-  if constexpr (Smoothed)
-    return P + pressure.template at<T>(slot, 1) * cofactor(F);
+/// Calls launch(std::true_type) where pressures are smoothed, else launch(std::false_type).
+template <class Material, class B, class Launch>
+void by_smoothing(const NodalRows<B>& rows, const Launch& launch) {
+  if constexpr (smooths_dilatation<Material>)
+    by_case(rows.bulk_excess.extent(0) > 0, launch);
   else
-    return P;
+    launch(std::false_type());
 }
 
 /// Stress of the force f = -dE/du. Damped: with the stress of -D(u) v.
@@ -76,7 +72,7 @@ struct NodalForce {
   RowScales<B> scales;
   ElementFlags<B> flags;  ///< raised by det F <= 0, where Watched; a record per slice
   Changing<B, int> evaluation;
-  RowPressure<B, Smoothed> pressure;
+  RowPressure<B> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&field)[fields],
                                          const RowsAt<B>& at, int region, Mat3<T>& Q,
@@ -86,9 +82,13 @@ struct NodalForce {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     Q = Material::stress(F, c) - b * G[0];
     v = field[0];
-    if constexpr (Smoothed) Q = Q + pressure.template at<T>(at.slot, 0) * cofactor(F);
+    if constexpr (Smoothed) {
+      T p = pressure.at(at.slot, 0);
+      if constexpr (Damped) p += T(scales.damping(region)) * pressure.at(at.slot, 1);
+      Q = Q + p * typename Material::template Dilatation<T>(F).slope;
+    }
     if constexpr (Damped)
-      Q = Q + T(scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
+      Q = Q + T(scales.damping(region)) * DampingTangent<Material, T>{F, c}(G[1]);
     if constexpr (Watched) {
       const T J = determinant(F);
       if (!all_positive(J)) raise(J, at);
@@ -109,7 +109,7 @@ struct NodalTangent {
   using T = RowPack<B>;
   RowScales<B> scales;
   typename B::Real damping_scale;  ///< factor of the damping times [1/s]
-  RowPressure<B, Smoothed> pressure;
+  RowPressure<B> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2],
                                          const RowsAt<B>& at, int region, Mat3<T>& Q,
@@ -119,18 +119,20 @@ struct NodalTangent {
     const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
     Q = Tangent<T>(F, c)(G[1]) - b * G[1];
     v = field[1];
-    if constexpr (Smoothed)
-      Q = Q + pressure.template at<T>(at.slot, 1) * cofactor(F) +
-          pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
+    if constexpr (Smoothed) {
+      const typename Material::template Dilatation<T> x(F);
+      T change = pressure.at(at.slot, 1);
+      if constexpr (Damped) change += T(damping_scale * scales.damping(region)) * change;
+      Q = Q + change * x.slope + pressure.at(at.slot, 0) * x.slope_change(G[1]);
+    }
     if constexpr (Damped)
-      Q = Q + T(damping_scale * scales.damping(region)) *
-                  nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
+      Q = Q + T(damping_scale * scales.damping(region)) * DampingTangent<Material, T>{F, c}(G[1]);
   }
 };
 
-/// Computes J_a, and with two fields its change cof F : dF.
-template <class B, int fields>
-struct RowVolumes {
+/// Computes the dilatation of each slot, and with two fields its change.
+template <class B, class Material, int fields>
+struct RowDilatations {
   using T = RowPack<B>;
   NodalRows<B> rows;
   NodalWork<B> work;
@@ -139,65 +141,78 @@ struct RowVolumes {
     Vec3<T> own[fields];
     Mat3<T> G[fields];
     row_gradients<B, fields>(rows, work.near, at, own, G);
-    const Mat3<T> F = Mat3<T>::identity() + G[0];
-    const T J = determinant(F);
+    const typename Material::template Dilatation<T> x(Mat3<T>::identity() + G[0]);
     T change = T(0);
-    if constexpr (fields > 1) change = inner(cofactor(F), G[1]);
+    if constexpr (fields > 1) change = inner(x.slope, G[1]);
     for (int l = 0; l < B::lanes; ++l) {
-      work.ratio((at.slot + l) * fields) = lane(J, l);
+      work.ratio((at.slot + l) * fields) = lane(x.value, l);
       if constexpr (fields > 1) work.ratio((at.slot + l) * fields + 1) = lane(change, l);
     }
   }
 };
 
-/// Returns the mixed pressures, which an implicit stage has as unknowns beside the displacement.
-/// They are excess (J~ - 1) before smoothing, one per slot, behind the other numbers of
-/// work.pressure; empty: there are none. The stage's tangent and potential take them instead of the
-/// pressures of the volumes; see mixed_pressures.hpp.
+/// Returns the mixed dilatations, which an implicit stage has as unknowns beside the displacement:
+/// one per slot, behind the other numbers of work.pressure; empty: there are none. The stage's
+/// tangent and potential take the pressures of these instead of those of the state; see
+/// mixed_dilatations.hpp.
 template <class B>
-Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work) {
+Scalars<B> carried_dilatations(const NodalRows<B>& rows, const NodalWork<B>& work) {
   const auto slots = static_cast<std::size_t>(rows.slots());
   return work.pressure.extent(0) > 2 * slots ? Scalars<B>(work.pressure.data() + 2 * slots, slots)
                                              : Scalars<B>();
 }
 
-/// Computes to = S from for `fields` numbers per slot. `first`: from volume ratios to excess (S J -
-/// 1) and excess S dJ.
-template <class B, int fields, bool first>
+/// Computes excess U'(x~) of work.ratio, and with two fields excess U''(x~) S dx. With mixed
+/// dilatations m: excess U'(m), and U'' half way from m to x~, so that both tell the same pressure
+/// after a change.
+template <class B, class Material, int fields>
+struct ExcessPressures {
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  Scalars<B> carried;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    const int region = rows.region(at.slice);
+    const auto c = load_constants<Material, T>(rows.constants, region);
+    const T excess = T(rows.bulk_excess(region));
+    const T x = smoothed<B>(rows, work.ratio.data(), fields, at);
+    const T mixed = carried.extent(0) > 0 ? load_rows<B>(&carried(at.slot)) : x;
+    const T p = excess * Material::volumetric(mixed, c).first;
+    T change = T(0);
+    if constexpr (fields > 1)
+      change = excess * Material::volumetric(T(0.5f) * (mixed + x), c).second *
+               smoothed<B>(rows, work.ratio.data() + 1, fields, at);
+    for (int l = 0; l < B::lanes; ++l) {
+      work.records((at.slot + l) * fields) = lane(p, l);
+      if constexpr (fields > 1) work.records((at.slot + l) * fields + 1) = lane(change, l);
+    }
+  }
+};
+
+/// Computes to = S from for `fields` numbers per slot.
+template <class B, int fields>
 struct SmoothRows {
   NodalRows<B> rows;
   Scalars<B> from, to;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    using T = RowPack<B>;
     const RowsAt<B> at(item);
-    const T bulk_excess = T(rows.bulk_excess(rows.region(at.slice)));
     for (int k = 0; k < fields; ++k) {
-      T x = smoothed<B>(rows, from.data() + k, fields, at);
-      if constexpr (first) x = bulk_excess * (k == 0 ? x - T(1) : x);
+      const RowPack<B> x = smoothed<B>(rows, from.data() + k, fields, at);
       for (int l = 0; l < B::lanes; ++l) to((at.slot + l) * fields + k) = lane(x, l);
     }
   }
 };
 
-/// Replaces the pressures of the volumes by the mixed pressures.
-template <class B, int fields>
-struct TakeCarried {
-  Scalars<B> carried, records;
-  KOKKOS_INLINE_FUNCTION void operator()(int slot) const { records(slot * fields) = carried(slot); }
-};
-
 /// Computes work.pressure of the fields that have been laid out.
-template <class B, int fields>
+template <class B, class Material, int fields>
 void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
                       const NodalWork<B>& work, const Scalars<B>& carried = {}) {
-  for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
+  for_rows<B>(exec, "plica::nodal_volumes", rows, RowDilatations<B, Material, fields>{rows, work});
+  for_rows<B>(exec, "plica::nodal_pressures", rows,
+              ExcessPressures<B, Material, fields>{rows, work, carried});
   for_rows<B>(exec, "plica::nodal_smooth", rows,
-              SmoothRows<B, fields, true>{rows, work.ratio, work.records});
-  if (carried.extent(0) > 0)
-    update_vertices<B>(exec, "plica::nodal_carried", rows.slots(),
-                       TakeCarried<B, fields>{carried, work.records});
-  for_rows<B>(exec, "plica::nodal_smooth", rows,
-              SmoothRows<B, fields, false>{rows, work.records, work.pressure});
+              SmoothRows<B, fields>{rows, work.records, work.pressure});
 }
 
 /// Computes the internal force, with damping where the rows have it. Without flags, nothing watches
@@ -211,9 +226,9 @@ void nodal_force(const typename B::Exec& exec, const LevelData<B>& level, const 
       lay_out<B>(exec, rows, level.nodal, {state.u, state.v});
     else
       lay_out<B>(exec, rows, level.nodal, {state.u});
-    by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
       constexpr int fields = damped ? 2 : 1;
-      if constexpr (smoothed) smooth_pressures<B, fields>(exec, rows, level.nodal);
+      if constexpr (smoothed) smooth_pressures<B, Material, fields>(exec, rows, level.nodal);
       by_case(level.flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
         launch_rows<B>(
             exec, "plica::nodal_stresses", level,
@@ -234,9 +249,10 @@ void nodal_tangent(const typename B::Exec& exec, const LevelData<B>& level, cons
     lay_out<B>(exec, rows, level.nodal, {p});
   else
     lay_out<B>(exec, rows, level.nodal, {u, p});
-  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+  by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed)
-      smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
+      smooth_pressures<B, Material, 2>(exec, rows, level.nodal,
+                                       carried_dilatations<B>(rows, level.nodal));
     by_case(damping_scale > 0 && rows.damping.extent(0) > 0,
             [&]<bool damped>(std::bool_constant<damped>) {
               launch_rows<B>(exec, "plica::nodal_tangent", level,
@@ -249,8 +265,8 @@ void nodal_tangent(const typename B::Exec& exec, const LevelData<B>& level, cons
   });
 }
 
-/// Energy of each domain [J], in the x component of partial: V Psi(F), its part of the bracket and
-/// of the smoothed volume's energy.
+/// Energy of each domain [J], in the x component of partial: V Psi(F), its part of the bracket, and
+/// that of the smoothed dilatation.
 template <class B, class Material, bool Smoothed>
 struct NodalEnergy {
   using T = RowPack<B>;
@@ -279,15 +295,16 @@ struct NodalEnergy {
     T energy = volume * Material::energy(Mat3<T>::identity() + G[0], c) +
                half * T(rows.stabiliser(region)) * (half * spread - volume * inner(G[0], G[0]));
     if constexpr (Smoothed) {
-      const T x = smoothed<B>(rows, work.ratio.data(), 1, at) - T(1);
-      const T bulk_excess = T(rows.bulk_excess(region));
+      const T x = smoothed<B>(rows, work.ratio.data(), 1, at);
+      const T excess = T(rows.bulk_excess(region));
       // the augmented Lagrangian, which has its minimum where the energy has it
       if (carried.extent(0) > 0) {
-        const T q = load_rows<B>(&carried(at.slot)), away = x - q / bulk_excess;
+        const T mixed = load_rows<B>(&carried(at.slot)), away = x - mixed;
         const T augmented = T(Kokkos::min(rows.bulk_excess(region), 100 * rows.stabiliser(region)));
-        energy += volume * (q * x + half * augmented * away * away);
+        energy += volume * (excess * Material::volumetric(mixed, c).first * (x - T(1)) +
+                            half * augmented * away * away);
       } else {
-        energy += half * bulk_excess * volume * x * x;
+        energy += volume * (excess * Material::volumetric(x, c).energy);
       }
     }
     for (int l = 0; l < B::lanes; ++l) {
@@ -301,41 +318,56 @@ template <class B, class Material>
 void nodal_energy(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
-  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+  by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed)
-      for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
+      for_rows<B>(exec, "plica::nodal_volumes", rows,
+                  RowDilatations<B, Material, 1>{rows, level.nodal});
     for_rows<B>(exec, "plica::nodal_energy", rows,
                 NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial,
-                                                   carried_pressures<B>(rows, level.nodal)});
+                                                   carried_dilatations<B>(rows, level.nodal)});
   });
 }
 
-/// Stress of von Mises [Pa] and volume ratio of every slot; for output.
+/// Stress and strain of every slot; for output. Where pressures are smoothed, F_a is scaled by
+/// (x~/x)^(1/3), so that with x = J its volume ratio is J~, as in F-bar elements (de Souza Neto,
+/// Peric, Dutko & Owen 1996). So the pressure of x, which alternates from vertex to vertex, does
+/// not show. A domain that is inverted keeps its own F_a.
 template <class B, class Material, bool Smoothed>
 struct NodalStress {
   using T = RowPack<B>;
   NodalRows<B> rows;
   NodalWork<B> work;
-  RowPressure<B, Smoothed> pressure;
+  RowPressure<B> pressure;
+  StressFields<B> fields;
   Scalars<B> relaxed;  ///< relaxed stress; see ViscousHistory
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[1];
     Mat3<T> G[1];
     row_gradients<B, 1>(rows, work.near, at, own, G);
-    const Mat3<T> F = Mat3<T>::identity() + G[0];
-    const T J = determinant(F);
+    Mat3<T> F = Mat3<T>::identity() + G[0];
+    T J = determinant(F);
+    if constexpr (Smoothed)
+      if (!fields.own_volumes) {
+        const T part = smoothed<B>(rows, work.ratio.data(), 1, at) /
+                       typename Material::template Dilatation<T>(F).value;
+        const T scale = where_positive(J, where_positive(part, part, T(1)), T(1));
+        F = (T(1) / inverse_cube_root(scale)) * F, J = scale * J;
+      }
     const int region = rows.region(at.slice);
     Mat3<T> sigma = cauchy_stress<Material>(
         F, load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot));
     if (relaxed.extent(0) > 0)
       sigma = sigma - pushed_forward(F, load_symmetric<B, T>(relaxed, at.slot));
-    if constexpr (Smoothed) sigma = sigma + Mat3<T>::diagonal(pressure.template at<T>(at.slot, 0));
+    if constexpr (Smoothed)
+      sigma = sigma + (pressure.at(at.slot, 0) / J) *
+                          (typename Material::template Dilatation<T>(F).slope * transpose(F));
     const T equivalent = von_mises(sigma);
     for (int l = 0; l < B::lanes; ++l) {
       work.records(2 * (at.slot + l)) = lane(equivalent, l);
       work.records(2 * (at.slot + l) + 1) = lane(J, l);
     }
+    if (fields.of_domains.extent(0) > 0) store_tensors<B>(fields.of_domains, at.slot, sigma, F);
   }
 };
 
@@ -344,7 +376,8 @@ template <class B>
 struct MeanOfDomains {
   using Real = typename B::Real;
   VertexShares<B> shares;
-  Scalars<B> volume, records, equivalent, ratio;
+  Scalars<B> volume, records;
+  StressFields<B> fields;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Real total = 0, stress = 0, J = 0;
     for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
@@ -352,46 +385,49 @@ struct MeanOfDomains {
       total += volume(slot), stress += volume(slot) * records(2 * slot),
           J += volume(slot) * records(2 * slot + 1);
     }
-    equivalent(a) = stress / total, ratio(a) = J / total;
+    fields.von_mises(a) = stress / total, fields.J(a) = J / total;
+    constexpr int numbers = StressFields<B>::numbers;
+    for (int k = 0; fields.tensors.extent(0) > 0 && k < numbers; ++k) {
+      Real sum = 0;
+      for (int s = shares.first(a); s < shares.first(a + 1); ++s)
+        sum += volume(shares.row(s)) * fields.of_domains(shares.row(s) * numbers + k);
+      fields.tensors(a * numbers + k) = sum / total;
+    }
   }
 };
 
 template <class B>
 void mean_of_domains(const typename B::Exec& exec, const LevelData<B>& level,
-                     const Scalars<B>& von_mises, const Scalars<B>& J) {
+                     const StressFields<B>& fields) {
   const NodalRows<B>& rows = level.model.rows;
   update_vertices<B>(exec, "plica::nodal_means", level.model.vertices,
-                     MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
+                     MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, fields});
 }
 
 template <class B, class Material>
 void nodal_stress(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
-                  const Scalars<B>& von_mises, const Scalars<B>& J) {
+                  const StressFields<B>& fields) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
-  by_case(rows.bulk_excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed) smooth_pressures<B, 1>(exec, rows, level.nodal);
+  by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    if constexpr (smoothed) smooth_pressures<B, Material, 1>(exec, rows, level.nodal);
     for_rows<B>(exec, "plica::nodal_stress", rows,
                 NodalStress<B, Material, smoothed>{
-                    rows, level.nodal, {level.nodal.pressure, 1}, level.stress.relaxed});
+                    rows, level.nodal, {level.nodal.pressure, 1}, fields, level.stress.relaxed});
   });
-  mean_of_domains<B>(exec, level, von_mises, J);
+  mean_of_domains<B>(exec, level, fields);
 }
 
 // Functions that are equal for all materials are compiled once, in nodal_elements.cpp.
-#define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                                     \
-  EXTERN template void smooth_pressures<__VA_ARGS__, 1>(                                      \
-      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
-      const Scalars<__VA_ARGS__>&);                                                           \
-  EXTERN template void smooth_pressures<__VA_ARGS__, 2>(                                      \
-      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
-      const Scalars<__VA_ARGS__>&);                                                           \
-  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*,           \
-                                             const NodalRows<__VA_ARGS__>&,                   \
-                                             const RowVolumes<__VA_ARGS__, 1>&);              \
-  EXTERN template void mean_of_domains<__VA_ARGS__>(                                          \
-      const __VA_ARGS__::Exec&, const LevelData<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&,   \
-      const Scalars<__VA_ARGS__>&);
+#define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                           \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, \
+                                             const NodalRows<__VA_ARGS__>&,         \
+                                             const SmoothRows<__VA_ARGS__, 1>&);    \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, \
+                                             const NodalRows<__VA_ARGS__>&,         \
+                                             const SmoothRows<__VA_ARGS__, 2>&);    \
+  EXTERN template void mean_of_domains<__VA_ARGS__>(                                \
+      const __VA_ARGS__::Exec&, const LevelData<__VA_ARGS__>&, const StressFields<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ELEMENTS(Real, Exec) PLICA_NODAL_ELEMENTS(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_PRECISION(PLICA_EXTERN_NODAL_ELEMENTS)
 #undef PLICA_EXTERN_NODAL_ELEMENTS

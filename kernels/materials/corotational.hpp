@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/inlining.hpp>
 #include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/materials/volumetric.hpp>
 
 namespace plica {
 
@@ -133,10 +134,14 @@ struct Corotational : TwoConstants {
     }
     KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
       const Mat3<T> Z = transpose(R) * dF;
-      const Vec3<T> w = turning * Vec3<T>{Z[2][1] - Z[1][2], Z[0][2] - Z[2][0], Z[1][0] - Z[0][1]};
+      const Vec3<T> w = spin(Z);
       const T mu2 = c.mu + c.mu;
       return mu2 * dF +
              R * ((stretch - mu2) * cross_matrix(w) + Mat3<T>::diagonal(c.lambda * trace(Z)));
+    }
+    /// Returns w for Z = R^T dF.
+    KOKKOS_INLINE_FUNCTION Vec3<T> spin(const Mat3<T>& Z) const {
+      return turning * Vec3<T>{Z[2][1] - Z[1][2], Z[0][2] - Z[2][0], Z[1][0] - Z[0][1]};
     }
     struct Corner {
       Vec3<T> g, r;  // r = R g
@@ -159,6 +164,23 @@ struct Corotational : TwoConstants {
       return K;
     }
   };
+
+  /// The dilatation R:F - 2, whose derivative is R.
+  template <class T>
+  struct Dilatation {
+    Tangent<T> at;
+    Mat3<T> slope;
+    T value;
+    explicit KOKKOS_INLINE_FUNCTION Dilatation(const Mat3<T>& F)
+        : at(F, {T(0), T(0)}), slope(at.R), value(inner(at.R, F) - T(2)) {}
+    KOKKOS_INLINE_FUNCTION Mat3<T> slope_change(const Mat3<T>& dF) const {
+      return at.R * cross_matrix(at.spin(transpose(at.R) * dF));
+    }
+  };
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Volumetric<T> volumetric(const T& x, const Lame<T>&) {
+    return {VolumeRatio<T>(x), T(1), Volumetric<T>::quadratic};
+  }
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <plica/core/inlining.hpp>
 #include <plica/kernels/materials/material.hpp>
-#include <plica/kernels/materials/volume_ratio.hpp>
+#include <plica/kernels/materials/volumetric.hpp>
 
 // Basis of the laws of tissue: Psi(F) = W(C) + U(J), C = R(J) F^T F with R = J^(-2/3). A law is a
 // struct derived from Isochoric<Law>, with W and its two derivatives. The rest is in this file,
@@ -28,27 +28,6 @@ struct IsochoricConstants {
   /// Unit vectors: of the fibres and, orthogonal to these, of their sheet; or of two families of
   /// fibres
   Vec3<T> axis[2];
-};
-
-/// Energy U(J) of the volume and its derivatives; the second derivative at rest is kappa.
-template <class T>
-struct Volumetric {
-  enum Choice { simo_hughes, logarithmic, quadratic };
-  T energy, first, second;
-  KOKKOS_INLINE_FUNCTION Volumetric(const VolumeRatio<T>& v, const IsochoricConstants<T>& c) {
-    const int choice = static_cast<int>(lane(c.volume, 0));
-    const T k = c.bulk, half = T(0.5f) * k;
-    // kappa/4 (J^2 - 1 - 2 ln J): Simo & Hughes, Computational Inelasticity, eq. 9.2.6
-    if (choice == simo_hughes) {
-      energy = half * (T(0.5f) * (v.J * v.J - T(1)) - v.log_ratio());
-      first = half * (v.J - v.slope()), second = half * (T(1) + v.square());
-    } else if (choice == logarithmic) {  // kappa/2 (ln J)^2
-      const T L = v.log_ratio(), slope = v.slope();
-      energy = half * L * L, first = k * L * slope, second = k * (slope * slope - L * v.square());
-    } else {  // kappa/2 (J - 1)^2
-      energy = half * (v.J - T(1)) * (v.J - T(1)), first = k * (v.J - T(1)), second = k;
-    }
-  }
 };
 
 /// Receiver of a law's stress: S = sum of w M.
@@ -168,10 +147,23 @@ struct Isochoric {
   }
 
   template <class T>
+  using Dilatation = VolumeDilatation<T>;
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Volumetric<T> volumetric(const T& J,
+                                                         const IsochoricConstants<T>& c) {
+    return volumetric(VolumeRatio<T>(J), T(1), c);
+  }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Volumetric<T> volumetric(const VolumeRatio<T>& v, const T& bulk,
+                                                         const IsochoricConstants<T>& c) {
+    return {v, bulk, static_cast<int>(lane(c.volume, 0))};
+  }
+
+  template <class T>
   static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const IsochoricConstants<T>& c) {
     const VolumeRatio<T> v(determinant(F));
     const Mat3<T> C = gram(F);
-    return Law::isochoric(v.factor() * C, c) + Volumetric<T>(v, c).energy +
+    return Law::isochoric(v.factor() * C, c) + volumetric(v, c.bulk, c).energy +
            c.mu * CrushedTerm<T>(trace(C)).energy();
   }
 
@@ -182,7 +174,7 @@ struct Isochoric {
     const T R = v.factor();
     IsochoricStress<T> law;
     Law::respond(R * C, c, law);
-    const T g = Volumetric<T>(v, c).first + T(0.5f) * v.factor_slope() * inner(law.S, C);
+    const T g = volumetric(v, c.bulk, c).first + T(0.5f) * v.factor_slope() * inner(law.S, C);
     return F * (R * law.S - Mat3<T>::diagonal(c.mu * CrushedTerm<T>(trace(C)).stress())) + g * H;
   }
 
@@ -201,7 +193,7 @@ struct Isochoric {
       const T R = v.factor(), slope = v.factor_slope();
       Law::respond(R * C, c, law);
       const T half = T(0.5f) * inner(law.S, C);
-      const Volumetric<T> volume(v, c);
+      const Volumetric<T> volume = volumetric(v, c.bulk, c);
       const CrushedTerm<T> crushed(trace(C));
       const Mat3<T> DC = law.change(C);
       g = volume.first + slope * half;

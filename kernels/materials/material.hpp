@@ -30,6 +30,11 @@
 //                             volume: Prony series act on W
 //   with_lambda(c, lambda)    where its volume has a stiffness of its own: the constants with
 //                             another volume stiffness, such that Lame's constant at rest is lambda
+//   Dilatation<T>(F), volumetric(x, c)
+//                             where energies of two lambda differ by their difference times U(x) of
+//                             a dilatation x of F, 1 at rest, which a rotation of the body does not
+//                             change: x, dx/dF and its change, as VolumeDilatation has them; and U,
+//                             whose second derivative at rest is 1. Nodal elements then smooth x
 // and has these properties:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
@@ -66,6 +71,13 @@ struct ColumnsOfCorner {
   KOKKOS_INLINE_FUNCTION Mat3<T> block(const ColumnsOfCorner& p) const {
     return transpose(Mat3<T>{dP[0] * p.g, dP[1] * p.g, dP[2] * p.g});
   }
+};
+
+/// Property of a material: its energy has a part of a dilatation alone, which nodal elements can
+/// smooth.
+template <class Material>
+inline constexpr bool smooths_dilatation = requires {
+  typename Material::template Dilatation<double>;
 };
 
 /// Number of constants that a material's kernels get.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/materials/material.hpp>
-#include <plica/kernels/materials/volume_ratio.hpp>
+#include <plica/kernels/materials/volumetric.hpp>
 
 namespace plica {
 
@@ -28,6 +28,13 @@ struct NeoHookean : TwoConstants {
   /// Returns the constants with the energy of shape times `share`, and kappa = bulk.
   static Lame<double> with_shape(const Lame<double>& c, double share, double bulk) {
     return {bulk - 2 * share * c.mu / 3, share * c.mu};
+  }
+
+  template <class T>
+  using Dilatation = VolumeDilatation<T>;
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Volumetric<T> volumetric(const T& J, const Lame<T>&) {
+    return {VolumeRatio<T>(J), T(1), Volumetric<T>::simo_hughes};
   }
 
   template <class T>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/materials/volumetric.hpp>
 
 namespace plica {
 
@@ -24,6 +25,20 @@ struct StVenantKirchhoff : TwoConstants {
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> second_stress(const Mat3<T>& E, const Lame<T>& c) {
     return (c.mu + c.mu) * E + Mat3<T>::diagonal(c.lambda * trace(E));
+  }
+
+  /// The dilatation 1 + tr(E).
+  template <class T>
+  struct Dilatation {
+    Mat3<T> slope;
+    T value;
+    explicit KOKKOS_INLINE_FUNCTION Dilatation(const Mat3<T>& F)
+        : slope(F), value(T(0.5f) * (inner(F, F) - T(1))) {}
+    KOKKOS_INLINE_FUNCTION Mat3<T> slope_change(const Mat3<T>& dF) const { return dF; }
+  };
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Volumetric<T> volumetric(const T& x, const Lame<T>&) {
+    return {VolumeRatio<T>(x), T(1), Volumetric<T>::quadratic};
   }
 
   template <class T>

@@ -215,6 +215,29 @@ struct StagePotential {
   }
 };
 
+/// Squared force on a vertex whose motion is given [N^2]; 0 for others. At rest that is the square
+/// of its reaction.
+template <class B>
+struct SquaredReaction {
+  VertexModel<B> model;
+  Vectors<B> f;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
+    if (model.inverse_mass(i) > 0) return {};
+    const auto force = vector_at<B>(f, i);
+    return {{static_cast<double>(dot(force, force))}};
+  }
+};
+
+/// Squared way of a vertex from `from` to `to` [m^2].
+template <class B>
+struct SquaredWay {
+  Vectors<B> from, to;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int i) const {
+    const auto way = vector_at<B>(to, i) - vector_at<B>(from, i);
+    return {{static_cast<double>(dot(way, way))}};
+  }
+};
+
 /// Kinetic energy of a vertex [J].
 template <class B>
 struct KineticEnergy {

@@ -136,6 +136,7 @@ WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh,
                         const MeshGroups& groups) {
   WrittenMesh written;
   leave_out_region_names(mesh, groups, "reference_", written);
+  leave_out_filled(mesh, written);
   const std::vector<std::int64_t> regions = region_numbers(mesh, groups);
   const std::vector<ElementGroup> sets = groups_of(mesh, groups);
   TextOut out;

@@ -68,7 +68,8 @@ TriangleSurface read_surface(const FileBytes& file, SurfaceReport* report, doubl
   return surface;
 }
 
-std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path, double weld) {
+std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path,
+                                             const ReadOptions& options) {
   const auto holds = [](const auto& formats, const std::string& extension) {
     return std::ranges::any_of(
         formats, [&](const MeshFormat& format) { return extension == format.extension; });
@@ -85,10 +86,10 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path, 
   if (!may_be_mesh ||
       (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
     ReadSurface read;
-    read.surface = validated_surface(raw, report, read.report, weld);
+    read.surface = validated_surface(raw, report, read.report, options.weld);
     return read;
   }
-  TetMesh mesh = validated_mesh(std::move(raw), report);
+  TetMesh mesh = validated_mesh(std::move(raw), report, options);
   return ReadMesh{std::move(mesh), std::move(report)};
 }
 
@@ -111,10 +112,37 @@ const auto& writer_of(const std::filesystem::path& path, const Writers& writers,
   throw InputError(unknown_name("format", format, names), {path.string()});
 }
 
+// Throws InputError where a tetrahedron is in a region without a name, or has corners that are no
+// vertices
+void expect_known_numbers(const std::filesystem::path& path, const TetMesh& mesh) {
+  const auto expect = [&](bool known, std::size_t tet, const char* what, int number,
+                          std::size_t count) {
+    if (!known)
+      throw InputError("tetrahedron " + std::to_string(tet) + " has " + what + " " +
+                           std::to_string(number) + "; the mesh has " + std::to_string(count) +
+                           ", counted from 0",
+                       {path.string()});
+  };
+  const auto below = [](int number, std::size_t count) {
+    return number >= 0 && static_cast<std::size_t>(number) < count;
+  };
+  const std::size_t points = mesh.vertices.size(), regions = mesh.region_names.size();
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+    for (const int corner : mesh.tets[e])
+      expect(below(corner, points), e, "vertex", corner, points);
+  if (!mesh.region.empty() && mesh.region.size() != mesh.tets.size())
+    throw InputError("the mesh has " + std::to_string(mesh.tets.size()) +
+                         " tetrahedra and regions for " + std::to_string(mesh.region.size()),
+                     {path.string()});
+  for (std::size_t e = 0; e < mesh.region.size(); ++e)
+    expect(below(mesh.region[e], regions), e, "region", mesh.region[e], regions);
+}
+
 }  // namespace
 
 WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh,
                        const std::string& format, bool binary, const MeshGroups& groups) {
+  expect_known_numbers(path, mesh);
   return writer_of(path, mesh_writers, "mesh", format, binary).write(path, mesh, groups);
 }
 

@@ -55,7 +55,7 @@ struct ReadSurface {
 /// Reads a mesh, or a surface if the file has triangles and no tetrahedron.
 /// @throw InputError as read_mesh() and read_surface() do
 std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path,
-                                             double weld = weld_distance);
+                                             const ReadOptions& options = {});
 
 /// Returns the bytes of a mesh file in the format that its extension names. Nothing is written to
 /// disk. Coordinates keep every bit unless a format says otherwise. TetGen's format is two files,
@@ -65,7 +65,8 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path,
 /// @param format  name of a format of that extension (see list.hpp); empty: the first one
 /// @param binary  true for the binary form of the format
 /// @param groups  groups as the mesh's file has them, or empty
-/// @throw InputError for an unknown extension or format, and for what the format cannot hold
+/// @throw InputError for an unknown extension or format, for what the format cannot hold, and for
+/// corners and regions that the mesh does not have
 WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh,
                        const std::string& format = "", bool binary = false,
                        const MeshGroups& groups = {});

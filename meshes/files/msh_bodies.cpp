@@ -65,6 +65,18 @@ void MshGather::add_vectors(const std::string& name, bool of_nodes, std::int64_t
   }
 }
 
+void MshGather::add_filled(std::int64_t count, Numbers& numbers) {
+  for (std::int64_t i = 1; i <= count; ++i) {
+    numbers.begin("part", i, count);
+    const std::int64_t tag = msh_tag(NumberType::int32, "the tag of a part", numbers);
+    if (!raw_.filled.place.try_emplace(tag, raw_.filled.values.size()).second)
+      numbers.fail("tag " + std::to_string(tag) + " has a part already");
+    raw_.filled.values.emplace_back(numbers.number(NumberType::float64, "the part of an element"),
+                                    0, 0);
+    numbers.end("a part: its tag and a number");
+  }
+}
+
 std::string MshGather::name_of(const Group& group, const std::map<Group, std::string>& names) {
   const auto found = names.find(group);
   return found != names.end() ? found->second : "physical_" + std::to_string(group.second);

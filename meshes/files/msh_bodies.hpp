@@ -56,6 +56,8 @@ class MshGather {
                    NumberType node_type, Numbers& numbers, const Place& place);
   /// Adds vectors of nodes or elements; reads `count` times tag, x, y, z from `numbers`.
   void add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers);
+  /// Adds the parts of elements that are body; reads `count` times tag and part from `numbers`.
+  void add_filled(std::int64_t count, Numbers& numbers);
   /// Returns the mesh and empties this; call it once.
   ParsedMesh take();
 

@@ -222,6 +222,15 @@ void MshParser::data() {
                " integer tags; expected 3 or more: time step, components, count");
   std::string name = texts.empty() ? "" : texts.front();
   std::erase(name, '"');
+  if (whole[1] == 1 && name == filled_name && section == "$ElementData") {
+    body([&](Numbers& numbers) {
+      return gather_.add_filled(
+                 numbers.checked_count(whole[2], "the number of parts", NumberType::int32, 2),
+                 numbers),
+             0;
+    });
+    return end_of("ElementData", std::to_string(whole[2]) + " parts");
+  }
   if (whole[1] != 3 || name.empty()) return skip(section);
   body([&](Numbers& numbers) {
     const std::int64_t count =

@@ -124,11 +124,16 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
                         {}});
   }
   raw.region_names = mesh.region_names;
+  for (const double part : mesh.filled) raw.filled.values.emplace_back(part, 0, 0);
   for (const auto& [name, vectors] : mesh.tet_vectors)
     raw.vectors.push_back({name, false, vectors});
   for (const auto& [name, vertices] : mesh.vertex_sets)
     for (auto& group = raw.groups.emplace_back(RawGroup{name, 0, 0, {}}); const int v : vertices)
       group.elements.push_back({0, {of(v), 0, 0}, 0, {}});
+  for (const auto& [name, triangles] : mesh.triangle_sets)
+    for (auto& group = raw.groups.emplace_back(RawGroup{name, 2, 0, {}});
+         const auto& [a, b, c] : triangles)
+      group.elements.push_back({0, {of(a), of(b), of(c)}, 0, {}});
 
   MergedMesh result;
   MeshReport report;

@@ -118,6 +118,9 @@ struct RawVectors {
   Point at(std::int64_t tag) const;
 };
 
+/// Name of the numbers in a file that are TetMesh::filled.
+inline constexpr const char* filled_name = "plica:filled";
+
 /// Numbers of the tetrahedra that may tell their regions.
 struct RawNumbers {
   std::string name;                  ///< name of the array in the file, or of the format's own kind
@@ -149,6 +152,7 @@ struct ParsedMesh {
   /// per second-order tetrahedron its index in `tets` and the nodes on its edges, in any order
   std::vector<std::pair<std::size_t, std::array<std::int64_t, 6>>> second_order;
   std::vector<RawVectors> vectors;  ///< named vectors: those of cells before those of points
+  RawVectors filled;                ///< part of each cell that is body, in x; empty: all of each
   std::vector<RawGroup> groups;     ///< groups whose vertices become the set of their name
   std::vector<RawMention> others;   ///< vertices of points and lines: only checked
   /// vertices of elements of higher order that are no corners

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <map>
+#include <plica/core/error.hpp>
+#include <plica/meshes/files/read_options.hpp>
 #include <plica/meshes/files/split_second_order.hpp>
 
 namespace plica {
@@ -116,6 +118,13 @@ class SecondOrderSplitter {
 };
 
 }  // namespace
+
+SecondOrder second_order_named(const std::string& name) {
+  if (name == "split") return SecondOrder::split;
+  if (name == "linear") return SecondOrder::linear;
+  throw InputError("order: " +
+                   unknown_name("treatment of second-order tetrahedra", name, {"split", "linear"}));
+}
 
 void split_second_order(ParsedMesh& raw, MeshReport& report) {
   if (raw.second_order.empty() || raw.second_order.size() != raw.tets.size()) return;

@@ -143,6 +143,7 @@ WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh,
                          const MeshGroups& groups) {
   WrittenMesh written;
   leave_out_region_names(mesh, groups, "attribute_", written);
+  leave_out_filled(mesh, written);
   const std::vector<std::int64_t> markers = markers_of(mesh, written),
                                   regions = region_numbers(mesh, groups);
   const bool marked = !mesh.vertex_sets.empty();

@@ -222,6 +222,27 @@ void add_vectors(const ParsedMesh& raw, TetMesh& mesh, const MeshReport& report)
   }
 }
 
+// Adds the parts of the tetrahedra that are body. Call it after all numbers are final.
+void add_filled(const ParsedMesh& raw, TetMesh& mesh, const MeshReport& report) {
+  if (raw.filled.values.empty()) return;
+  for (const std::int64_t tag : report.tet_tags) {
+    const double part = raw.filled.at(tag).x();
+    if (!(part > 0 && part <= 1))
+      refuse(raw, {}, "tetrahedron ", tag, " is filled to ", part, "; expected a part in (0, 1]");
+    mesh.filled.push_back(part);
+  }
+}
+
+// Names the triangles of the groups that have some. Call it after all names and numbers are final.
+void add_triangle_sets(const MeshGroups& groups, TetMesh& mesh) {
+  for (const ElementGroup& group : groups.sets)
+    if (group.dimension == 2) {
+      auto& set = mesh.triangle_sets[group.name];
+      set.insert(set.end(), group.elements.begin(), group.elements.end());
+    }
+  std::erase_if(mesh.triangle_sets, [](const auto& set) { return set.second.empty(); });
+}
+
 // Converts the names of groups to UTF-8: files have them in any encoding. A name that a region and
 // a set share stays a shared one.
 void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
@@ -259,7 +280,9 @@ TetMesh validated_mesh(ParsedMesh raw, MeshReport& report, const ReadOptions& op
   add_sets(raw, numbering, mesh, report);
   drop_unreferenced(raw, numbering, mesh, report);
   add_vectors(raw, mesh, report);
+  add_filled(raw, mesh, report);
   name_in_utf8(mesh, report.groups);
+  add_triangle_sets(report.groups, mesh);
   return mesh;
 }
 

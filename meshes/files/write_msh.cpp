@@ -136,6 +136,17 @@ void write_vectors(const Parts& parts, NumbersOut& out) {
   }
 }
 
+// Writes the parts of the tetrahedra that are body
+void write_filled(const Parts& parts, NumbersOut& out) {
+  const std::vector<double>& filled = parts.mesh.filled;
+  if (filled.empty()) return;
+  out.text("$ElementData\n1\n\"" + std::string(filled_name) + "\"\n1\n0\n3\n0\n1\n" +
+           std::to_string(filled.size()) + "\n");
+  std::int64_t tag = parts.elements - size_of(filled);
+  for (const double part : filled) out.int32(++tag).real64(part).end();
+  end_section("ElementData", out);
+}
+
 // Writes an element of version 2.2. In text each element has its type and number of tags; in binary
 // a run of elements has them.
 void write_element22(std::int64_t tag, int type, std::int64_t group, std::span<const int> vertices,
@@ -177,6 +188,7 @@ WrittenMesh write22(const std::filesystem::path& path, const TetMesh& mesh,
   end_section("Nodes", out);
   write_elements22(parts, out);
   write_vectors(parts, out);
+  write_filled(parts, out);
   written.files = {{path.string(), out.take()}};
   return written;
 }
@@ -196,6 +208,7 @@ WrittenMesh write41(const std::filesystem::path& path, const TetMesh& mesh,
   end_section("Nodes", out);
   write_blocks(parts, out);
   write_vectors(parts, out);
+  write_filled(parts, out);
   written.files = {{path.string(), out.take()}};
   return written;
 }

@@ -13,6 +13,7 @@ constexpr int vtk_tet = 10;
 WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   WrittenMesh written;
   leave_out_region_names(mesh, groups, "region_", written);
+  leave_out_filled(mesh, written);
   leave_out_vertex_sets(mesh, written);
   return written;
 }

@@ -74,8 +74,16 @@ std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& group
     if (std::ranges::any_of(groups.sets,
                             [&](const ElementGroup& group) { return group.name == name; }))
       continue;
+    std::set<int> alone(vertices.begin(), vertices.end());  // vertices of no triangle of the set
+    const auto triangles = mesh.triangle_sets.find(name);
+    if (triangles != mesh.triangle_sets.end()) {
+      all.push_back({name, 2, 0, triangles->second});
+      for (const auto& triangle : triangles->second)
+        for (const int v : triangle) alone.erase(v);
+      if (alone.empty()) continue;
+    }
     ElementGroup& group = all.emplace_back(ElementGroup{name, 0, 0, {}});
-    for (const int v : vertices) group.elements.push_back({v, -1, -1});
+    for (const int v : alone) group.elements.push_back({v, -1, -1});
   }
   for (int dimension = 0; dimension < 3; ++dimension) {
     std::vector<std::int64_t> tags;
@@ -96,6 +104,12 @@ void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups,
     if (const std::string now = prefix + std::to_string(numbers[i]); mesh.region_names[i] != now)
       written.left_out.push_back("the region '" + mesh.region_names[i] + "' is now '" + now +
                                  "', as this format numbers them");
+}
+
+void leave_out_filled(const TetMesh& mesh, WrittenMesh& written) {
+  if (!mesh.filled.empty())
+    written.left_out.push_back(
+        "the parts of the tetrahedra that are body are left out: only .msh has them");
 }
 
 void leave_out_vertex_sets(const TetMesh& mesh, WrittenMesh& written) {

@@ -50,7 +50,8 @@ std::vector<std::int64_t> region_tags(const TetMesh& mesh, const MeshGroups& gro
 /// Returns per tetrahedron the number of its region; empty without regions.
 std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& groups);
 
-/// Returns the groups to write: those of the file, and each other vertex set as a group of points.
+/// Returns the groups to write: those of the file, and each other set as a group of its triangles
+/// and one of its other vertices.
 /// Tags are positive; 0 and other unusable tags get free numbers of their dimension.
 std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& groups);
 
@@ -58,6 +59,8 @@ std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& group
 /// names a region "PREFIXnumber".
 void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups,
                             const std::string& prefix, WrittenMesh& written);
+/// Reports that the parts of the tetrahedra that are body are left out.
+void leave_out_filled(const TetMesh& mesh, WrittenMesh& written);
 /// Reports that all vertex sets are left out.
 void leave_out_vertex_sets(const TetMesh& mesh, WrittenMesh& written);
 

@@ -126,7 +126,8 @@ def run_page(page: Path, build: Path) -> list[str]:
         for match in BLOCK.finditer(text):
             block = Block(text, match)
             where = f"{page.relative_to(ROOT)}:{block.line}"
-            needs = block.marks.get("needs", "plica" if block.language == "python" else "")
+            runs_here = block.language == "python" and not block.named_file()
+            needs = block.marks.get("needs", "plica" if runs_here else "")
             if "not run" in block.marks:
                 left_out.append(f"{where}: {block.marks['not run']}")
                 continue

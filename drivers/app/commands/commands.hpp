@@ -88,9 +88,18 @@ struct ViewArguments {
   bool browser = true;  ///< true: opens the page in a browser, where there is a screen
 };
 
+/// Choices about a mesh or surface file, as text; empty: not given.
+struct ReadArguments {
+  std::string regions;    ///< array of cells that numbers the regions, or none
+  std::string leave_out;  ///< names or numbers of regions or labels, between commas
+  std::string order;      ///< treatment of second-order tetrahedra
+  std::string weld;       ///< distance on open edges, as a part of the box's diagonal
+};
+
 /// Arguments of `plica mesh info`.
 struct MeshInfoArguments {
   std::filesystem::path file;
+  ReadArguments read;
   bool json = false;
   std::string scale = "1";  ///< metres per unit of the file, as text
   /// values of body.material as text, by key; a key that is not given has its default
@@ -101,6 +110,7 @@ struct MeshInfoArguments {
 /// Arguments of `plica mesh convert`.
 struct ConvertArguments {
   std::filesystem::path in, out;
+  ReadArguments read;
   std::string format;       ///< one of the formats of the extension; empty: the first one
   bool binary = false;      ///< true: writes the binary form of the format
   std::string scale = "1";  ///< metres per unit of the file, as text
@@ -111,9 +121,10 @@ struct ConvertArguments {
 /// Arguments of the commands `plica mesh repair`, `fill` and `coarsen`.
 struct MakeMeshArguments {
   std::filesystem::path in, out;
-  std::string scale = "1";  ///< metres per unit of the file, as text
-  std::string size;         ///< fill: length of the edges or lattice cells, as text
-  int vertices = 0;         ///< coarsen: maximum number of vertices
+  ReadArguments read;
+  std::string scale;  ///< metres per unit of the file, as text; empty: 1, or as an image says
+  std::string size;   ///< fill: length of the edges or lattice cells, as text
+  int vertices = 0;   ///< coarsen: maximum number of vertices
   /// fill: the mesh generator, gmsh or lattice; empty: Gmsh if it is installed and makes a mesh
   std::string with;
   std::string time_limit = "10 min";  ///< fill: maximum time of Gmsh, as text

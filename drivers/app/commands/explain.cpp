@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -43,7 +44,39 @@ std::string used_levels(const Scene& scene, std::size_t used) {
                       : levels;
 }
 
+std::string ahead_of(const Scene& scene, const auto& simulation) {
+  steps_of(scene, simulation.macro_step());  // throws for too many
+  return trials_ahead(scene.problem, scene.duration, simulation.levels().front(),
+                      simulation.macro_step());
+}
+
+std::string soundness_json(const Scene& scene, const auto& simulation) {
+  const std::string ahead = ahead_of(scene, simulation);
+  return json_text({{"scene", scene.file},
+                    {"sound", true},
+                    {"error", nullptr},
+                    {"warnings", scene.warnings},
+                    {"cycle_auto", ahead.empty() ? Json(nullptr) : Json(ahead)},
+                    {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
+}
+
 }  // namespace
+
+std::string explained(const Scene& scene, const std::string& precision) {
+  return with_set_up(scene, precision,
+                     [](const Scene& of, auto& simulation, const Machine& machine) {
+                       return plan_text(of, plan_of(of, simulation, machine));
+                     });
+}
+
+std::string checked_json(const Scene& scene, const std::string& precision) {
+  check_its_study(scene);
+  return with_set_up(scene, precision,
+                     [](const Scene& of, auto& simulation, const Machine&) {
+                       return soundness_json(of, simulation);
+                     },
+                     {false, {}});
+}
 
 ExitStatus explain(const SceneArguments& arguments) {
   with_simulation(arguments,
@@ -58,20 +91,14 @@ ExitStatus check(const SceneArguments& arguments) {
   try {
     const auto say = [&](const Scene& scene, const auto& simulation, const Machine&, double) {
       check_its_study(scene);
-      const std::string ahead = trials_ahead(scene.problem, scene.duration,
-                                             simulation.levels().front(), simulation.macro_step());
-      if (arguments.json)
-        std::cout << json_text(
-            {{"scene", scene.file},
-             {"sound", true},
-             {"error", nullptr},
-             {"warnings", scene.warnings},
-             {"cycle_auto", ahead.empty() ? Json(nullptr) : Json(ahead)},
-             {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
-      else
-        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size())
-                  << "\n"
-                  << (ahead.empty() ? "" : wrapped("cycle auto: " + ahead, 98, "  "));
+      if (arguments.json) {
+        std::cout << soundness_json(scene, simulation);
+        return;
+      }
+      const std::string ahead = ahead_of(scene, simulation);
+      std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size())
+                << "\n"
+                << (ahead.empty() ? "" : wrapped("cycle auto: " + ahead, 98, "  "));
     };
     with_simulation(arguments, say, {false, {}});
   } catch (const InputError& error) {

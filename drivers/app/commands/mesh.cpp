@@ -18,6 +18,7 @@
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
+#include <sstream>
 
 namespace plica::app {
 
@@ -71,12 +72,63 @@ std::string info_of(ReadSurface& read, double scale, const MaterialOptions&,
 
 }  // namespace
 
+ReadOptions read_options_of(const ReadArguments& arguments, Flaws flaws) {
+  ReadOptions options{.flaws = flaws, .regions = arguments.regions};
+  options.leave_out = left_out_by(arguments);
+  if (!arguments.order.empty()) {
+    std::string order;
+    read_option("--order", arguments.order, Name{"order", second_orders}, order);
+    options.order = second_order_named(order);
+  }
+  if (!arguments.weld.empty())
+    read_option("--weld", arguments.weld, Quantity{plain, not_negative}, options.weld);
+  return options;
+}
+
+std::vector<std::string> left_out_by(const ReadArguments& arguments) {
+  std::vector<std::string> names;
+  std::istringstream list(arguments.leave_out);
+  for (std::string name; std::getline(list, name, ',');) {
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    if (name.empty())
+      throw InputError("--leave-out: expected names or numbers between commas, got '" +
+                       arguments.leave_out + "'");
+    names.push_back(name);
+  }
+  return names;
+}
+
+void refuse_options(const std::vector<std::pair<std::string, std::string>>& given,
+                    const std::string& why, const std::filesystem::path& file) {
+  for (const auto& [option, value] : given)
+    if (!value.empty()) throw InputError(option + " " + why, {file.string()});
+}
+
+namespace {
+
+// Refuses options that do not belong to what the file holds
+std::variant<ReadMesh, ReadSurface> read_chosen(const std::filesystem::path& file,
+                                                const ReadArguments& arguments) {
+  auto read = read_any(file, read_options_of(arguments));
+  if (std::holds_alternative<ReadMesh>(read))
+    refuse_options({{"--weld", arguments.weld}}, "is for surfaces of triangles", file);
+  else
+    refuse_options({{"--regions", arguments.regions},
+                    {"--leave-out", arguments.leave_out},
+                    {"--order", arguments.order}},
+                   "is for meshes of tetrahedra", file);
+  return read;
+}
+
+}  // namespace
+
 ExitStatus mesh_info(const MeshInfoArguments& arguments) {
   double scale = 1;
   read_option("--scale", arguments.scale, Quantity{plain, positive}, scale);
   MaterialOptions material;
   read_options(arguments.material, material);
-  auto read = read_any(arguments.file);
+  auto read = read_chosen(arguments.file, arguments.read);
   std::cout << std::visit([&](auto& one) { return info_of(one, scale, material, arguments); },
                           read);
   return ExitStatus::done;
@@ -122,7 +174,8 @@ WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments,
     read.mesh = std::move(merged.mesh);
     read.report.groups = renumbered(read.report.groups, merged.vertex);
   }
-  warn(arguments.in, mesh_warnings(read.mesh, read.report));
+  // A scale that is given may make other units than metres
+  warn(arguments.in, mesh_warnings(read.mesh, read.report, numbers.scale == 1));
   for (const auto& [kind, count] : read.report.other_elements)
     if (kind != "point")
       warn(arguments.in, {counted(count, kind) + " left out, but for their groups"});
@@ -150,7 +203,14 @@ WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments,
 ExitStatus mesh_convert(const ConvertArguments& arguments) {
   check_extension(arguments.out);
   const ConvertNumbers numbers = numbers_of(arguments);
-  auto read = read_any(arguments.in);
+  auto read = read_chosen(arguments.in, arguments.read);
+  std::error_code none;
+  if (std::holds_alternative<ReadMesh>(read) &&
+      std::filesystem::equivalent(arguments.in, arguments.out, none))
+    throw InputError(
+        "this is the file that is read, and what it has beside its tetrahedra would be lost; "
+        "expected another OUT",
+        {arguments.out.string()});
   const WrittenMesh written =
       std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
   write(arguments.out, written);

@@ -93,6 +93,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.counters = simulation.counters();
   summary.residual = simulation.worst_residual();
   summary.wrenches = simulation.wrenches();
+  summary.reactions = simulation.reactions();
   summary.tools = simulation.tools();
   summary.held = simulation.held();
   summary.penetrations = output.penetrations();
@@ -203,7 +204,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
                     InterruptWatch& watch) {
   const std::filesystem::path folder = folder_of(arguments);
   // throws for too many steps, before the folder is made
-  const long steps = steps_to_cover(scene.duration, simulation.macro_step());
+  const long steps = steps_of(scene, simulation.macro_step());
   make_folder(folder);
   const FolderLock alone(folder);
   take_over(checkpoint, machine);

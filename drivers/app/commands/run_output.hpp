@@ -203,7 +203,7 @@ class RunOutput {
   }
 
   void write_frame(double time) {
-    const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
+    const Snapshot now = take_snapshot(simulation_, time, files_.volumes(), files_.output());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
     if (depth_.looks()) {

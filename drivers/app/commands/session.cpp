@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <Kokkos_Core.hpp>
+#include <charconv>
 #include <cstdlib>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/describe.hpp>
 #include <string_view>
 
 namespace plica::app {
@@ -80,7 +82,27 @@ void SetUpProgress::wait() {
   say();
 }
 
+namespace {
+
+// Throws InputError for a number of threads that Kokkos would abort the process for
+void check_thread_count(const std::string& name, const std::string& value) {
+  int threads = 0;
+  const char* const end = value.data() + value.size();
+  const auto [rest, error] = std::from_chars(value.data(), end, threads);
+  if (error != std::errc{} || rest != end || threads < 1 || threads > thread_count.max)
+    throw InputError(fmt::format("{}: expected a whole number in [1, {}], got '{}'", name,
+                                 thread_count.max, value));
+}
+
+}  // namespace
+
 KokkosSession::KokkosSession(const KokkosArguments& arguments) {
+  constexpr std::string_view option = "--kokkos-num-threads=";
+  if (const char* const threads = std::getenv("KOKKOS_NUM_THREADS"))
+    check_thread_count("KOKKOS_NUM_THREADS", threads);
+  for (const std::string& word : arguments.pass_through)
+    if (word.starts_with(option))
+      check_thread_count("--kokkos-num-threads", word.substr(option.size()));
   // Prevents Kokkos' warning that OpenMP's threads are not bound. Binding is the user's choice, and
   // here it is too late for it.
   setenv("OMP_PROC_BIND", "false", 0);

@@ -98,14 +98,11 @@ std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, cons
   return choice;
 }
 
-/// Starts Kokkos, sets the simulation up, and calls action(scene, simulation, machine, seconds).
-/// The last argument is the time of the set-up, since `progress` began [s].
+/// Sets the simulation up, and calls action(scene, simulation, machine). Needs Kokkos. Throws
+/// InputError with the location in the scene.
 template <class Action>
-auto with_simulation(const Scene& scene, const std::string& precision,
-                     const KokkosArguments& kokkos, SetUpProgress& progress, const Action& action,
-                     const CycleAuto& made = {}) {
-  const KokkosSession session(kokkos);
-  progress.listen();
+auto with_set_up(const Scene& scene, const std::string& precision, const Action& action,
+                 const CycleAuto& made = {}) {
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<CycleChoice> choice;
     std::optional<Simulation<B>> simulation;
@@ -119,10 +116,24 @@ auto with_simulation(const Scene& scene, const std::string& precision,
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(),
                           std::is_same_v<typename B::Real, float> ? "float" : "double", choice};
-    return action(scene, *simulation, machine, progress.finish());
+    return action(scene, *simulation, machine);
   };
   using Exec = Kokkos::DefaultExecutionSpace;
   return in_precision<Exec>(precision.empty() ? "double" : precision, run);
+}
+
+/// Starts Kokkos, sets the simulation up, and calls action(scene, simulation, machine, seconds).
+/// The last argument is the time of the set-up, since `progress` began [s].
+template <class Action>
+auto with_simulation(const Scene& scene, const std::string& precision,
+                     const KokkosArguments& kokkos, SetUpProgress& progress, const Action& action,
+                     const CycleAuto& made = {}) {
+  const KokkosSession session(kokkos);
+  progress.listen();
+  const auto run = [&](const Scene& of, auto& simulation, const Machine& machine) {
+    return action(of, simulation, machine, progress.finish());
+  };
+  return with_set_up(scene, precision, run, made);
 }
 
 /// Returns the scene that the arguments name, with its meshes. Prints its warnings.

@@ -46,7 +46,8 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
     const auto texts = [&](const StabilityResult& result, const std::string& status) {
       return files_of(folder, stability_texts(scene, machine, result, status));
     };
-    std::vector<FileBytes> left;  // to be written after Ctrl-C
+    write_files(texts({}, "unfinished"));
+    std::vector<FileBytes> left = texts({}, "interrupted");  // to be written after Ctrl-C
     const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
     const ProgressLine line(arguments.quiet);
     const StabilityResult result =
@@ -82,13 +83,14 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
   const auto texts = [&](const MatrixResult& result, const std::string& status) {
     return files_of(folder, stability_texts(machine, result, status));
   };
-  std::vector<FileBytes> left;  // to be written after Ctrl-C
+  write_files(texts({}, "unfinished"));
+  std::vector<FileBytes> left = texts({}, "interrupted");  // to be written after Ctrl-C
   const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
   const ProgressLine line(arguments.quiet);
   auto written = start;
   const MatrixWatch watch = [&](const MatrixResult& result, std::size_t of) {
     const auto now = Clock::now();
-    if (left.empty() || std::chrono::duration<double>(now - written).count() > 1) {
+    if (std::chrono::duration<double>(now - written).count() > 1) {
       const auto lock = interrupts.hold();
       write_files(texts(result, "unfinished"));
       left = texts(result, "interrupted"), written = now;

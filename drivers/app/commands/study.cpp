@@ -32,14 +32,13 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments,
 }
 
 StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files,
-                      bool quiet, InterruptWatch& interrupts) {
+                      bool quiet, InterruptWatch& interrupts, bool replaces) {
   StudyResult before = files.read();
-  if (before.rows.empty() && files.holds_another())
-    message(
-        coloured("warning: ", Colour::yellow) +
-        fmt::format(
-            "{} holds a study of another scene, options, program or machine: this one replaces it",
-            files.folder().string()));
+  if (before.rows.empty() && files.holds_another() && !replaces)
+    throw InputError(
+        fmt::format("{} holds a study of another scene, options, program or machine; expected "
+                    "another folder, or --force to replace it",
+                    files.folder().string()));
   if (!quiet && !before.rows.empty())
     message(fmt::format("going on with {}: {} there", files.folder().string(),
                         counted(static_cast<long>(before.rows.size()), "row")));
@@ -81,6 +80,7 @@ ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
     const auto folder =
         arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
     make_folder(folder);
+    const FolderLock alone(folder);
     const StudyFiles files(scene, options, folder);
     if (!arguments.quiet)
       message(fmt::format("{}: {:g} s, {} tetrahedra; {} on {}, {}", scene.name, scene.duration,
@@ -88,7 +88,8 @@ ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
                           fmt::join(options.precision, " and "), files.machine().backend,
                           counted(files.machine().threads, "thread")));
     const auto start = std::chrono::steady_clock::now();
-    const StudyResult result = run_study(scene, options, files, arguments.quiet, interrupts);
+    const StudyResult result =
+        run_study(scene, options, files, arguments.quiet, interrupts, arguments.force);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (!arguments.quiet && options.budget && taken.count() > 1.1 * *options.budget)
       message(

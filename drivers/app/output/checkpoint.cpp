@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
-constexpr int version_written = 14;
+constexpr int version_written = 15;
 
 // Returns a path as JSON: a text if it is UTF-8, else a list of the values of its bytes
 Json path_json(const std::string& path) {
@@ -106,6 +106,7 @@ std::uint64_t mesh_digest(const Body& body) {
     digest.add(mesh.filled);
     for (const std::string& name : mesh.region_names) digest.add(name);
     for (const auto& [name, vertices] : mesh.vertex_sets) digest.add(name), digest.add(vertices);
+    for (const auto& [name, set] : mesh.triangle_sets) digest.add(name), digest.add(set);
     for (const auto& [name, vectors] : mesh.tet_vectors) digest.add(name), add_points(vectors);
   }
   if (body.surface) {

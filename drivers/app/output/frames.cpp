@@ -30,8 +30,10 @@ std::string vtu_text(const VtuGrid& grid) {
   VtuOut vtu;
   std::string point_data, cell_data;
   for (const auto& [name, values] : grid.point_fields) point_data += vtu.add(name, values);
-  for (const auto& [name, values] : grid.point_scalars) point_data += vtu.add(name, 1, values);
-  for (const auto& [name, values] : grid.cell_scalars) cell_data += vtu.add(name, 1, values);
+  for (const auto& [name, values, components] : grid.point_scalars)
+    point_data += vtu.add(name, components, values);
+  for (const auto& [name, values, components] : grid.cell_scalars)
+    cell_data += vtu.add(name, components, values);
   for (const auto& [name, values] : grid.cell_vectors) cell_data += vtu.add(name, values);
   for (const auto& [name, values] : grid.cell_fields) cell_data += vtu.add(name, 1, values);
   const std::string points = vtu.add("Points", grid.points), cell_arrays = cells(grid, vtu);

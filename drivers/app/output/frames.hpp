@@ -16,6 +16,7 @@ struct VtuGrid {
   struct ScalarField {
     std::string name;
     std::vector<double> values;
+    int components = 1;
   };
   struct CellField {
     std::string name;

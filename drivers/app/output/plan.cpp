@@ -49,10 +49,9 @@ std::string head_text(const Scene& scene, const Plan& plan) {
                                 : "";
   return fmt::format("{} ({})\n", scene.name, scene.file) +
          text_table(
-             {{"time",
-               fmt::format("{:g} s in {} of {}", scene.duration,
-                           counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
-                           in_units(plan.macro_step, "s"))},
+             {{"time", fmt::format("{:g} s in {} of {}", scene.duration,
+                                   counted(steps_of(scene, plan.macro_step), "macro step"),
+                                   in_units(plan.macro_step, "s"))},
               {"cycle", fmt::format("{}{}", cycle_name(scene, plan.choice),
                                     plan.him || plan.choice
                                         ? ""
@@ -187,7 +186,7 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                      {"scene", scene.file},
                      {"duration", scene.duration},
                      {"macro_step", plan.macro_step},
-                     {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
+                     {"macro_steps", steps_of(scene, plan.macro_step)},
                      {"cycle", cycle_name(scene, plan.choice)},
                      {"choice", choice_json(plan.choice)},
                      {"precision", plan.precision},

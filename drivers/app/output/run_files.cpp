@@ -9,6 +9,7 @@
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/body/supports.hpp>
 #include <plica/drivers/elastic/fibres.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -93,7 +94,9 @@ std::string history_head(const Problem& problem) {
   if (has_friction(problem.contact)) all += ",friction_work";
   for (const std::size_t o : rubbing_obstacles(problem.contact))
     all += fmt::format(",{}.slipping", obstacle_name(problem.contact, o));
-  return all + (has_strength(problem.contact) ? ",attachments.torn\n" : "\n");
+  if (has_strength(problem.contact)) all += ",attachments.torn";
+  for (const std::string& name : held_names(problem.body)) add(name, {"force", "torque"});
+  return all + "\n";
 }
 
 }  // namespace
@@ -138,6 +141,7 @@ void History::write(const Snapshot& s) {
   if (rubs_) row += fmt::format(",{:.9g}", s.friction_work);
   for (const std::size_t o : rubbing_) row += fmt::format(",{:.9g}", s.slipping.at(o));
   if (tears_) row += fmt::format(",{}", s.torn);
+  for (const Reaction& r : s.reactions) add(r.force), add(r.torque);
   file_.add(row + "\n");
 }
 
@@ -224,6 +228,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder,
                    const std::optional<FilesMark>& from)
     : body_(with_regions(scene.problem.body)),
       numbering_(scene.numbering),
+      output_(scene.output),
       placement_(placement_of(body_)),
       volume_levels_(written_levels(scene)),
       frame_times_(from ? from->frame_times : std::vector<double>{}),
@@ -291,6 +296,11 @@ VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   grid.point_fields = {{"displacement", displacements(grid.points, skin_.vertices, placement_)},
                        {"velocity", embedded ? snapshot.surface_velocities
                                              : gathered(snapshot.velocities, skin_vertex_)}};
+  if (output_.writes(contact_pressure_field)) {
+    std::vector<double> pressure = snapshot.contact_pressure;
+    pressure.resize(grid.points.size());
+    grid.point_scalars.emplace_back(contact_pressure_field, std::move(pressure));
+  }
   if (!skin_body_.empty()) grid.cell_fields.push_back({"body", skin_body_});
   return grid;
 }
@@ -313,6 +323,13 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
   const std::vector<int>& order = elements.per_vertex ? vertices : tets;
   fields.emplace_back("von_mises", in_input_order(elements.von_mises, order));
   fields.emplace_back("J", in_input_order(elements.J, order));
+  const auto add = [&](const char* name, const std::vector<double>& values, int components) {
+    if (output_.writes(name))
+      fields.emplace_back(name, in_input_order(values, order, components), components);
+  };
+  add("stress", elements.stress, 6);
+  add("pressure", elements.pressure, 1);
+  add("principal_stretches", elements.principal_stretches, 3);
   if (has_fibres(body_)) grid.cell_vectors = {{fibre_field, mesh.tet_vectors.at(fibre_field)}};
   // numbers are written with regions, since a reader would take numbers alone for regions
   const bool has_numbers = !numbering.tet_ids.empty();

@@ -35,6 +35,9 @@ struct Snapshot {
   long step_halvings = 0;             ///< halvings of macro steps so far
   double friction_work = 0;           ///< work of friction so far [J]
   std::vector<double> slipping;       ///< part of the contacts of each obstacle that slips
+  /// pressure of contact at the embedded surface's points [Pa]; empty: not asked for, or no contact
+  std::vector<double> contact_pressure = {};
+  std::vector<Reaction> reactions = {};  ///< forces and torques that hold vertices
 };
 
 /// Returns how often macro steps were halved so far; 0 if steps that fail are not halved.
@@ -48,10 +51,11 @@ long halvings_of(const Simulation<B>& simulation) {
 /// Returns true if an obstacle or the contact between bodies has friction.
 bool has_friction(const ContactOptions& contact);
 
-/// Returns the present state of a simulation, with the levels that `volumes` names.
+/// Returns the present state of a simulation, with the levels that `volumes` names and the fields
+/// that `output` asks for.
 template <class B>
 Snapshot take_snapshot(const Simulation<B>& simulation, double time,
-                       const std::vector<int>& volumes) {
+                       const std::vector<int>& volumes, const OutputOptions& output) {
   Snapshot snapshot{time,
                     simulation.positions(),
                     simulation.velocities(),
@@ -69,7 +73,10 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time,
                     simulation.slipping()};
   for (const int level : volumes)
     snapshot.volumes.push_back({level, simulation.positions(level), simulation.velocities(level),
-                                simulation.element_fields(level)});
+                                simulation.element_fields(level, output.writes_tensors())});
+  if (output.writes(contact_pressure_field))
+    snapshot.contact_pressure = simulation.contact_pressure();
+  snapshot.reactions = simulation.reactions();
   return snapshot;
 }
 
@@ -91,6 +98,7 @@ std::vector<double> vertex_masses(const Body& body, int level = 0);
 ///   - work of friction so far, and for each obstacle with friction the part of its contacts that
 ///     slips
 ///   - number of attached points that are torn
+///   - force and torque of each of held_names(), at this time
 class History {
  public:
   /// Starts the file, or continues it after its first `kept` bytes.
@@ -128,6 +136,7 @@ class RunFiles {
   /// Writes a frame of the surface, one of each level of volumes(), and a row of the history.
   void write(const Snapshot& snapshot);
   const std::vector<int>& volumes() const { return volume_levels_; }  ///< levels that are written
+  const OutputOptions& output() const { return output_; }
   std::size_t frames() const { return frame_times_.size(); }
   /// Returns the time of the last frame on disk [s].
   double last_time() const { return frame_times_.empty() ? 0 : frame_times_.back(); }
@@ -148,6 +157,7 @@ class RunFiles {
 
   Body body_;                                // the body, with the regions that the scene selects
   const std::vector<Numbering>& numbering_;  // numbering of each level
+  const OutputOptions& output_;
   Point placement_;
   TriangleSurface skin_;          // the embedded surface, or the boundary of level 0, at rest
   std::vector<int> skin_vertex_;  // numbers in level 0 of the boundary's vertices

@@ -68,9 +68,10 @@ const Table<MatrixRow> matrix_columns = {{"case", &MatrixRow::name},
                                          {"detail", &MatrixRow::detail},
                                          {"why", &MatrixRow::why}};
 
-StabilityTexts texts(Json json, const Json& rows) {
-  json["rows"] = with_nulls(rows);
-  return {json_text(json), csv_table(json["rows"])};
+template <class Row>
+StabilityTexts texts(Json json, const Table<Row>& columns, const std::vector<Row>& rows) {
+  json["rows"] = with_nulls(columns.json(rows));
+  return {json_text(json), csv_table(json["rows"], columns.json(Row()))};
 }
 
 }  // namespace
@@ -87,7 +88,7 @@ StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine,
                      {"material", scene.problem.body.material.model},
                      {"machine", machine_json(machine)},
                      {"left_out", result.left_out}};
-  return texts(json, stability_columns.json(result.rows));
+  return texts(json, stability_columns, result.rows);
 }
 
 StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result,
@@ -96,7 +97,7 @@ StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& 
                      {"ok", result.ok()},
                      {"machine", machine_json(machine)},
                      {"left_out", result.left_out}};
-  return texts(json, matrix_columns.json(result.rows));
+  return texts(json, matrix_columns, result.rows);
 }
 
 namespace {

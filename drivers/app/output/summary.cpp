@@ -10,9 +10,11 @@
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/body/body_parts.hpp>
 #include <plica/drivers/cycles/plan_steps.hpp>
 #include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
 #include <plica/version.hpp>
 
@@ -30,9 +32,17 @@ long steps_to_cover(double duration, double macro_step) {
   const double steps = std::ceil(duration / macro_step - rounding);
   if (!(steps <= most))
     throw InputError(
-        fmt::format("a duration of {:g} s is {:.3g} macro steps of {:g} s; expected at most {:g}",
+        fmt::format("duration: {:g} s are {:.3g} macro steps of {:g} s; expected at most {:g}",
                     duration, steps, macro_step, most));
   return std::max(1L, std::lround(steps));
+}
+
+long steps_of(const Scene& scene, double macro_step) {
+  try {
+    return steps_to_cover(scene.duration, macro_step);
+  } catch (const InputError& error) {
+    throw located(error, scene.source);
+  }
 }
 
 namespace {
@@ -64,6 +74,14 @@ Json wrenches_json(const std::vector<Wrench>& wrenches) {
   Json all = Json::object();
   for (const Wrench& w : wrenches)
     all[w.obstacle] = {{"force", three(w.force)}, {"torque", three(w.torque)}};
+  return all;
+}
+
+Json reactions_json(const std::vector<Reaction>& reactions) {
+  Json all = Json::object();
+  for (const Reaction& r : reactions)
+    all[r.set] = {
+        {"force", three(r.force)}, {"torque", three(r.torque)}, {"about", three(r.about)}};
   return all;
 }
 
@@ -190,6 +208,7 @@ std::string summary_json(const Scene& scene, const Summary& s,
                      {"warnings", s.warnings},
                      {"obstacles", obstacles_json(scene.problem.contact)},
                      {"wrenches", wrenches_json(s.wrenches)},
+                     {"reactions", reactions_json(s.reactions)},
                      {"tools", tools_json(s.tools)},
                      {"held", held_json(s.held)},
                      {"penetration", penetrations_json(s.penetrations)}};
@@ -308,6 +327,11 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"to look at", "plica report " + shell_word(folder)}};
   if (const std::string solves = solves_text(s.counters); !solves.empty())
     rows.insert(rows.begin() + 2, {"solving", solves});
+  if (seeks_rest(scene.problem.integration) && !s.diagnosis)
+    rows.insert(rows.begin() + 1,
+                {"at rest", fmt::format("in all load steps; at most {:.2g} of the forces are not "
+                                        "balanced (residual)",
+                                        s.residual)});
   if (const std::string halved = halvings_text(s.counters); !halved.empty())
     rows.insert(rows.begin() + 1, {"macro steps", halved});
   if (const std::string cuts = cuts_text(s.counters); !cuts.empty())

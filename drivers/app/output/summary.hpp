@@ -15,6 +15,9 @@ namespace plica::app {
 /// Returns the smallest number of macro steps [s] that covers a duration [s] up to rounding, at
 /// least 1. Throws InputError for more than 1e12.
 long steps_to_cover(double duration, double macro_step);
+/// Returns steps_to_cover() of a scene's duration. Throws InputError with the location in the
+/// scene.
+long steps_of(const Scene& scene, double macro_step);
 
 /// Data of a run, as in summary.json. Times are in s, memory in bytes.
 struct Summary {
@@ -36,6 +39,7 @@ struct Summary {
   double residual = 0;  ///< largest residual of an implicit solve in the run
   std::optional<Diagnosis> diagnosis;
   std::vector<Wrench> wrenches;       ///< forces and torques over the last macro step
+  std::vector<Reaction> reactions;    ///< forces and torques that hold vertices at the end
   std::vector<ToolState> tools;       ///< poses of obstacles with mass at the end
   std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
   Penetrations penetrations;          ///< largest depths in all frames

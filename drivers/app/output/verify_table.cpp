@@ -69,17 +69,20 @@ std::string verify_json(const VerifyHead& head, const VerifyResult& result) {
 }
 
 std::string verify_csv(const VerifyResult& result) {
+  const auto flat = [](const Json& row, const Json& ours) {
+    Json line;
+    for (const auto& [name, value] : row.items())
+      if (name == "ours")
+        line["size"] = ours["size"], line["value"] = ours["value"];
+      else
+        line[name] = name == "mesh" ? ours[name] : value;
+    return line;
+  };
   Json lines = Json::array();
   for (const Json& row : verify_columns.json(result.rows))
-    for (const Json& ours : row["ours"]) {
-      Json& line = lines.emplace_back();
-      for (const auto& [name, value] : row.items())
-        if (name == "ours")
-          line["size"] = ours["size"], line["value"] = ours["value"];
-        else
-          line[name] = name == "mesh" ? ours[name] : value;
-    }
-  return csv_table(lines);
+    for (const Json& ours : row["ours"]) lines.push_back(flat(row, ours));
+  return csv_table(lines,
+                   flat(verify_columns.json(VerifyRow()), value_columns.json(VerifyValue())));
 }
 
 namespace {

@@ -39,8 +39,7 @@ std::string material_parameters_page() {
               "`allow_inversion` left out"}};
   for (const MaterialInfo& one : material_list()) {
     laws.push_back({fmt::format("[{0}](#{0})", one.name), yes_where(one.has_fibres),
-                    yes_where(one.with_shape != nullptr),
-                    yes_where(one.with_lambda != nullptr && one.rotation_invariant),
+                    yes_where(one.with_shape != nullptr), yes_where(one.smooths_dilatation),
                     one.recovers ? "are pushed back" : "may stay so",
                     one.allows_inversion ? "true" : "false"});
   }

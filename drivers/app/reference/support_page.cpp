@@ -103,8 +103,15 @@ std::vector<Setting> load_settings() {
             "normal: [0, 0, -1]}}]",
             "body.loads=[{box: {min: [-20.1 mm, -20.1 mm, -1 mm], max: [20.1 mm, 20.1 mm, 61 "
             "mm]}, enclosed_volume: {ratio: 1.1, bulk_modulus: 1 kPa}}]"}},
+          {"`fixed`, `along` or `slide`",
+           {"body.fixed=[{half_space: {normal: [1, 0, 0]}, along: [x]}, {half_space: {normal: [0, "
+            "1, 0]}, slide: normal}]"}},
           {"`prescribed`",
            {fmt::format("body.prescribed=[{{{}, velocity: [1 mm/s, 0, 0]}}]", end_face)}},
+          {"`prescribed`, `rotate`",
+           {fmt::format("body.prescribed=[{{{}, rotate: {{axis: [1, 0, 0], angular_velocity: 1 "
+                        "rad/s}}}}]",
+                        end_face)}},
           {"damping, `mass`", {"body.damping.mass=1 1/s"}},
           {"damping, `stiffness`", {"body.damping.stiffness=1 us"}}};
 }

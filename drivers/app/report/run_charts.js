@@ -13,18 +13,20 @@ function sizes(columns, names) { return columns[names[0]].map((_, i) => Math.hyp
 
 function show_charts() {
   const parent = by_id("charts"), {history, probes, summary} = report;
-  if (history && history.time.length > 1) show_history(parent, history);
+  if (history && history.time.length > 1) show_history(parent, history, summary);
   if (probes && probes.time.length > 1) show_probes(parent, probes);
   if (summary && Object.keys(summary.stages).length) show_stages(parent, summary);
 }
 
-function show_history(parent, history) {
+function show_history(parent, history, summary) {
   const moved = (name) => history[name + "_energy"] && history[name + "_energy"].some((v) => v !== 0);
   const energies = ENERGIES.filter(moved).map((name) => ({name, values: history[name + "_energy"]}));
   if (energies.length) page.cursors.push(line_chart(parent, "Energy of level 0", history.time, energies, "J", choose_time));
   const pushed = Object.keys(history).filter((name) => name.endsWith(".force_x")).map((name) => name.slice(0, -8));
   const forces = pushed.map((name) => ({name, values: sizes(history, ["x", "y", "z"].map((axis) => `${name}.force_${axis}`))}));
-  if (forces.length) page.cursors.push(line_chart(parent, "Size of the contact force on obstacles", history.time, forces, "N", choose_time));
+  const supports = (summary && summary.reactions) || {}, [holding, touching] = [true, false].map((held) => forces.filter(({name}) => name in supports === held));
+  if (touching.length) page.cursors.push(line_chart(parent, "Size of the contact force on obstacles", history.time, touching, "N", choose_time));
+  if (holding.length) page.cursors.push(line_chart(parent, "Size of the force on supports", history.time, holding, "N", choose_time));
   const holders = Object.keys(history).filter((name) => name.endsWith(".held")).map((name) => ({name: name.slice(0, -5), values: history[name]}));
   if (holders.length) page.cursors.push(line_chart(parent, "Points that obstacles hold", history.time, holders, "", choose_time));
 }

@@ -55,11 +55,14 @@ std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vect
   return rows;
 }
 
-// Returns true for arrays that do not colour the surface: displacement, mass and number. Mass and
-// number are equal in all frames
+// Returns true for arrays that do not colour the surface: displacement, mass, number and the
+// stress tensor. Mass and number are equal in all frames
 bool left_out(const std::string& name) {
-  return name == "displacement" || name == "mass" || name == "number";
+  return name == "displacement" || name == "mass" || name == "number" || name == "stress";
 }
+
+// Name of the array of which only the first number is shown
+constexpr const char* stretch_field = "principal_stretches";
 
 std::string unit_of(const std::string& name) {
   if (name.ends_with("velocity")) return "m/s";
@@ -71,6 +74,7 @@ std::string label_of(const std::string& name, bool is_length) {
   if (name == "velocity") return "speed";
   if (name == "von_mises") return "von Mises stress";
   if (name == "J") return "volume ratio J";
+  if (name == stretch_field) return "largest stretch";
   std::string words = is_length ? "size of " + name : name;
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
@@ -89,7 +93,9 @@ SurfaceAnimation::SurfaceAnimation(int level, const FrameFile& first) : level_(l
     if (moved != nullptr && moved->components == 3) rest_.back() -= Point(&moved->values[3 * i]);
   }
   for (const FrameArray& array : first.arrays)
-    if (!left_out(array.name)) fields_[array.name] = {array.of_cells, array.components > 1, {}};
+    if (!left_out(array.name))
+      fields_[array.name] = {
+          array.of_cells, array.components > 1 && array.name != stretch_field, {}};
 }
 
 void SurfaceAnimation::take_boundary(const FrameFile& first) {
@@ -124,7 +130,8 @@ std::vector<float> SurfaceAnimation::values_of(const FrameArray& array) const {
   for (const int i : array.of_cells ? owners_ : vertices_) {
     const double* at = &array.values[components * static_cast<std::size_t>(i)];
     const double size = std::sqrt(std::inner_product(at, at + components, at, 0.0));
-    values.push_back(static_cast<float>(components > 1 ? size : *at));
+    values.push_back(
+        static_cast<float>(components > 1 && array.name != stretch_field ? size : *at));
   }
   return values;
 }

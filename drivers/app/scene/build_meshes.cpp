@@ -38,6 +38,7 @@ class Sentences {
   std::vector<std::string> list_;
 };
 
+constexpr double part_of_length = 0.02;  // thickness of a sheet over its longest extent
 constexpr double largest_body = 3, smallest_body = 1e-4;  // expected extents of a body [m]
 
 double extent_of(const TetMesh& mesh) {
@@ -89,7 +90,8 @@ void add_background(const TetMesh& mesh, const MeshReport& report, Sentences& se
 
 }  // namespace
 
-std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report) {
+std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report,
+                                       bool in_metres) {
   Sentences sentences;
   for (const auto& [kind, count] : report.linearised)
     sentences.add(count, kind, "taken by the corners alone");
@@ -100,7 +102,7 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
                 "duplicate",
                 "among the vertices: at the place of another one, where the mesh may come apart "
                 "(merge them?)");
-  sentences.add(no_body(mesh), size_text(mesh, true));
+  sentences.add(in_metres && no_body(mesh), size_text(mesh, true));
   const int parts = count_parts(mesh);
   sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
   for (const std::string& section : report.skipped_sections)
@@ -202,8 +204,7 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const SourceLocation&
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
   MeshReport report;
   const ReadOptions options = {recipe.repair ? Flaws::kept : Flaws::refused, recipe.regions,
-                               recipe.leave_out,
-                               recipe.order == "linear" ? SecondOrder::linear : SecondOrder::split};
+                               recipe.leave_out, second_order_named(recipe.order)};
   TetMesh mesh = placed(where, [&] { return read_mesh(file, &report, options); });
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
   if (recipe.merge_duplicates) {
@@ -240,7 +241,7 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Sourc
 TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene,
                                const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.surface, scene, where);
-  auto read = placed(where, [&] { return read_any(file, recipe.weld); });
+  auto read = placed(where, [&] { return read_any(file, {.weld = recipe.weld}); });
   TriangleSurface surface;
   if (const auto* mesh = std::get_if<ReadMesh>(&read)) {
     warn(scene, file, mesh_warnings(mesh->mesh, mesh->report));
@@ -297,27 +298,43 @@ TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest,
                         recipe.sphere->subdivisions);
 }
 
-TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const SourceLocation& where) {
+// Closes the slits of a surface that its distance grid does not see, and says so
+void close_tool(TriangleSurface& surface, SurfaceReport& report, const ToolRecipe& recipe,
+                const std::filesystem::path& file, Scene& scene) {
+  const double cell = distance_cell(surface, recipe.options.cells);
+  const int slits = close_slits(surface, cell);
+  if (slits == 0) return;
+  warn(scene, file,
+       {fmt::format("{} narrower than a cell of its distance grid, {:.3g} m, {} closed; with a "
+                    "thickness it is a sheet instead",
+                    counted(slits, "slit"), recipe.scale * cell, slits > 1 ? "are" : "is")});
+  report.open_edges = report.crowded_edges = report.inconsistent_edges = 0;
+  count_edges(surface, report);
+}
+
+// Returns the thickness of a sheet for a surface that is not closed, and says so [m]
+double sheet_thickness(const TriangleSurface& surface, const SurfaceReport& report,
+                       const ToolRecipe& recipe, const std::filesystem::path& file, Scene& scene) {
+  const Box box = bounding_box(surface.vertices);
+  const double thickness = part_of_length * recipe.scale * (box.max - box.min).maxCoeff();
+  warn(
+      scene, file,
+      {fmt::format("it {}; it is taken as a sheet of {:.3g} m, a fiftieth of its length: thickness "
+                   "gives another one. For an inside, close it, or choose fewer cells, which "
+                   "closes wider slits",
+                   why_open(report), thickness)});
+  return thickness;
+}
+
+// Reads the surface of a tool. Where it is not closed, `thickness` becomes that of a sheet
+TriangleSurface tool_surface(const ToolRecipe& recipe, double& thickness, Scene& scene,
+                             const SourceLocation& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = placed(where, [&] { return read_surface(file, &report, recipe.weld); });
-  const double thickness = recipe.options.thickness;
-  if (thickness == 0 && report.open_edges > 0) {
-    const double cell = distance_cell(surface, recipe.options.cells);
-    if (const int slits = close_slits(surface, cell); slits > 0) {
-      warn(scene, file,
-           {fmt::format("{} narrower than a cell of its distance grid, {:.3g} m, {} closed",
-                        slits > 1 ? fmt::format("{} slits", slits) : "1 slit", recipe.scale * cell,
-                        slits > 1 ? "are" : "is")});
-      report.open_edges = report.crowded_edges = report.inconsistent_edges = 0;
-      count_edges(surface, report);
-    }
-  }
+  if (thickness == 0 && report.open_edges > 0) close_tool(surface, report, recipe, file, scene);
   if (thickness == 0 && !report.closed())
-    throw InputError(
-        fmt::format("the surface '{}' {}; expected a closed one, or a sheet: thickness: 2 mm",
-                    file.string(), why_open(report)),
-        where);
+    thickness = sheet_thickness(surface, report, recipe, file, scene);
   if (thickness > 0) report.open_edges = 0;  // open edges are no fault of a sheet
   warn(scene, file, surface_warnings(report));
   const double angle = recipe.rotation.norm();
@@ -374,7 +391,7 @@ void check_names(const Body& body, const Tree& tree) {
   for (const auto& [name, region] : body.regions)
     check_fibres("body.regions." + name + ".fibres", region.fibres);
   for (std::size_t i = 0; i < body.fixed.size(); ++i)
-    check_names(body.fixed[i], fmt::format("body.fixed.{}", i), groups, regions, tree);
+    check_names(body.fixed[i].where, fmt::format("body.fixed.{}", i), groups, regions, tree);
   for (std::size_t i = 0; i < body.prescribed.size(); ++i)
     check_names(body.prescribed[i].where, fmt::format("body.prescribed.{}", i), groups, regions,
                 tree);
@@ -431,10 +448,12 @@ void build_meshes(Scene& scene, const Tree& tree) {
             : from_file(*scene.surface, scene, where);
   }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
-    if (const auto& tool = scene.obstacles[i].tool)
-      std::any_cast<SurfaceOptions&>(scene.problem.contact.obstacles[i].shape).surface =
-          tool_surface(*tool, scene,
+    if (const auto& tool = scene.obstacles[i].tool) {
+      auto& shape = std::any_cast<SurfaceOptions&>(scene.problem.contact.obstacles[i].shape);
+      shape.surface =
+          tool_surface(*tool, shape.thickness, scene,
                        place_of(tree, fmt::format("contact.obstacles.{}.surface.file", i)));
+    }
   check_names(body, tree);
 }
 

@@ -12,7 +12,8 @@ namespace plica::app {
 using namespace keys;
 
 std::vector<Choice> frame_formats();  ///< file formats of frames
-std::vector<Choice> precisions();     ///< float and double
+std::vector<Choice> frame_fields();  ///< arrays of frames that are written where they are asked for
+std::vector<Choice> precisions();    ///< float and double
 std::vector<Choice> second_orders();  ///< treatments of second-order tetrahedra
 
 /// Number of threads; the maximum is what Kokkos allows with OpenMP.
@@ -246,9 +247,12 @@ void describe(V& v, ContactKeys& o) {
 
 template <class V>
 void describe(V& v, OutputOptions& o) {
-  v("every", o.every, Every{}, "between frames and rows of history.csv; left out: duration / 60");
+  v("every", o.every, Every{},
+    "between frames and rows of history.csv; left out: duration / 60, of cycle rest 1 step");
   v("volume", o.volume, LevelChoice{},
     "whose tetrahedra are written as well, with stress and volume ratio");
+  v("fields", o.fields, ListOf<Name>{{"field", frame_fields}},
+    "more arrays in frames, beside von Mises' stress and J");
   v("probes", o.probes, NamedPoints{}, "points of level 0 at rest whose motion goes to probes.csv");
   v("probe_every", o.probe_every, Every{}, "between rows of probes.csv; left out: 1 step");
   v("format", o.format, Name{"format", frame_formats}, "of the frames");

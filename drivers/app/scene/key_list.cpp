@@ -38,6 +38,9 @@ Json schema_of(const Vector& kind) {
   return triple_of(schema_of(Quantity{kind.dimension, kind.range}));
 }
 Json schema_of(const Direction&) { return schema_of(Vector{plain}); }
+Json schema_of(const NormalOrDirection&) {
+  return any_of({{{"const", "normal"}}, schema_of(Direction{})});
+}
 Json schema_of(const Count& kind) {
   Json count = {{"type", "integer"}, {"minimum", kind.min}};
   if (kind.max < std::numeric_limits<int>::max()) count["maximum"] = kind.max;

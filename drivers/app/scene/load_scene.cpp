@@ -10,6 +10,7 @@
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/meshes/embedding.hpp>
@@ -17,6 +18,13 @@
 namespace plica::app {
 
 std::vector<Choice> frame_formats() { return {{"vtu", "VTK's XML format for unstructured grids"}}; }
+
+std::vector<Choice> frame_fields() {
+  return {{"stress", "Cauchy's stress of tetrahedra, xx yy zz xy yz xz [Pa]"},
+          {"pressure", "of tetrahedra, minus a third of the stress's trace [Pa]"},
+          {"principal_stretches", "of tetrahedra, the largest first"},
+          {contact_pressure_field, "on the points of the surface [Pa]"}};
+}
 
 std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 bits"}}; }
 std::vector<Choice> second_orders() {
@@ -80,7 +88,7 @@ void take_lattices(Scene& scene) {
     scene.levels.emplace_back().lattice = sizes[i];
   }
   if (scene.jitter > 0)
-    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none");
+    throw InputError("body.jitter: the cells of a lattice stay cubes; remove this key");
 }
 
 }  // namespace
@@ -102,6 +110,10 @@ Scene read_scene(const Tree& tree) {
   }
   if (!scene.obstacles.empty() && !scene.surface && !scene.lattices && scene.bodies.empty())
     scene.surface.emplace().boundary = true;
+  if (IntegrationOptions& o = scene.problem.integration; seeks_rest(o)) {
+    if (!o.rest.ramp) o.rest.ramp = scene.duration;
+    if (!scene.output.every) scene.output.every = Interval{0, 1};  // frames of all load steps
+  }
   scene.source = tree;
   return scene;
 }
@@ -192,6 +204,15 @@ void check_output(const Scene& scene) {
   const OutputOptions& output = scene.output;
   if (output.probe_every && output.probes.empty())
     throw InputError("output.probe_every: there are no probes; give output.probes");
+  for (const std::string& field : output.fields) {
+    const bool of_surface = field == contact_pressure_field;
+    if (of_surface && scene.obstacles.empty() && !has_pairs(scene.problem))
+      throw InputError("output.fields: " + field +
+                       ": nothing touches the body; expected contact.obstacles");
+    if (!of_surface && !output.volume.all && output.volume.levels.empty())
+      throw InputError("output.fields: " + field +
+                       " is written with tetrahedra; expected output.volume");
+  }
   const std::string& cycle = scene.problem.integration.cycle;
   const std::size_t in_use = integrated_levels(cycle, scene.levels.size());
   for (const int level : output.volume.levels)

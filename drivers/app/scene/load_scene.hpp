@@ -42,7 +42,9 @@ void build_meshes(Scene& scene, const Tree& tree);
 
 /// Returns warnings about a mesh that was read: what was repaired, left out, or looks wrong. One
 /// sentence each.
-std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);
+/// @param in_metres  true: lengths are metres, and a body of an unlikely size is doubted
+std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report,
+                                       bool in_metres = true);
 /// Returns warnings about a surface that was read: what was left out, or looks wrong. One sentence
 /// each.
 std::vector<std::string> surface_warnings(const SurfaceReport& report);

@@ -93,6 +93,12 @@ void read(const Value& value, const Direction& kind, Point& target) {
   if (target.isZero(0)) value.error("expected a direction, got " + kind.to_text(target));
 }
 
+void read(const Value& value, const NormalOrDirection& kind, Point& target) {
+  if (value.tree.kind == Tree::Kind::list) return read(value, Direction{}, target);
+  if (value.scalar(kind.type_text()) != "normal") value.mismatch(kind.type_text());
+  target.setZero();
+}
+
 void read(const Value& value, const Count& kind, int& target) {
   const std::string& text = value.scalar(kind.type_text());
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), target);

@@ -35,6 +35,7 @@ void read(const Value& value, const Quantity& kind, double& target);
 void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target);
 void read(const Value& value, const Vector& kind, Point& target);
 void read(const Value& value, const Direction& kind, Point& target);
+void read(const Value& value, const NormalOrDirection& kind, Point& target);
 void read(const Value& value, const Count& kind, int& target);
 void read(const Value& value, const AutoCount& kind, int& target);
 void read(const Value& value, const Counts& kind, std::array<int, 3>& target);
@@ -119,6 +120,7 @@ void read(const Value& value, const Switch&, std::optional<T>& target) {
 template <class T>
 void read(const Value& value, const List& kind, std::vector<T>& target) {
   const std::size_t size = value.list("a list").size();
+  target.clear();  // a tissue or preset may have filled it
   for (std::size_t i = 0; i < size; ++i) read(value.item(i), Group{}, target.emplace_back());
   if (size < kind.least) value.mismatch("at least one entry");
 }

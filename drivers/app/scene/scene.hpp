@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <plica/meshes/organs.hpp>
 #include <plica/meshes/reordering.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Contents of a scene file. The physics is the library's Problem. The types here describe what
@@ -129,6 +131,17 @@ std::vector<Value> in_input_order(const std::vector<Value>& values, const std::v
   return order.empty() ? values : permuted(values, order);
 }
 
+/// Returns the values in the order of the input, `components` of each vertex or tetrahedron.
+inline std::vector<double> in_input_order(const std::vector<double>& values,
+                                          const std::vector<int>& order, int components) {
+  if (order.empty() || values.empty()) return values;
+  std::vector<double> result;
+  for (const int old : order)
+    result.insert(result.end(), values.begin() + components * old,
+                  values.begin() + components * (old + 1));
+  return result;
+}
+
 /// Returns the mesh in the order of the input.
 inline TetMesh in_input_order(const TetMesh& mesh, const Numbering& numbering) {
   return numbering.input.vertices.empty() ? mesh : reordered(mesh, numbering.input);
@@ -149,13 +162,25 @@ struct BodyRecipe {
   std::optional<SurfaceRecipe> surface;
 };
 
+/// Name of the one of frame_fields() that is on the surface. The others are of tetrahedra.
+inline constexpr const char* contact_pressure_field = "contact_pressure";
+
 /// Files that a run writes.
 struct OutputOptions {
   std::optional<Interval> every;  ///< interval of frames; none: a sixtieth of the duration
   VolumeLevels volume;
+  std::vector<std::string> fields;      ///< more arrays of the frames, of frame_fields()
   std::map<std::string, Point> probes;  ///< points of level 0 at rest, by name [m]
   std::optional<Interval> probe_every;  ///< interval of rows; none: every macro step
   std::string format = "vtu";
+
+  bool writes(std::string_view field) const {
+    return std::ranges::find(fields, field) != fields.end();
+  }
+  /// Returns true if a field of tetrahedra is asked for.
+  bool writes_tensors() const {
+    return std::ranges::any_of(fields, [](const auto& f) { return f != contact_pressure_field; });
+  }
 };
 
 /// Scene: a problem, where its meshes come from, and what a run or a study of it does.

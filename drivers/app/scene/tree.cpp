@@ -3,6 +3,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,27 +19,40 @@ SourceLocation place(const std::string& file, const YAML::Mark& mark) {
   return {file, mark.is_null() ? 0 : mark.line + 1};
 }
 
+// Returns the text as it can be printed: U+FFFD stands for bytes that are no UTF-8, and for control
+// characters, which could command a terminal. Throws InputError for NUL
+std::string printable(const std::string& raw, const SourceLocation& where) {
+  std::string text;
+  for (const char c : valid_utf8(raw)) {
+    if (c == '\0') throw InputError("a text has the character NUL; expected text to read", where);
+    const bool is_control = (c > 0 && c < ' ' && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
+    is_control ? text += "\xef\xbf\xbd" : text += c;
+  }
+  return text;
+}
+
 // Converts YAML's nodes to a tree of values. An alias may stand for a value that contains it, so
-// depth and number of values are limited
+// depth and number of values are limited: without aliases, a text has fewer values than characters
 class Conversion {
  public:
-  explicit Conversion(const std::string& file) : file_(file) {}
+  Conversion(const std::string& file, const std::string& text)
+      : file_(file), most_(std::max<std::size_t>(100'000, text.size())) {}
   Tree operator()(const YAML::Node& node);
 
  private:
   void add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value);
 
   const std::string& file_;
-  int depth_ = 0, values_ = 0;
+  std::size_t most_, values_ = 0;
+  int depth_ = 0;
 };
 
 void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value) {
   const SourceLocation where = place(file_, key.Mark());
   if (!key.IsScalar()) throw InputError("a key must be a word", where);
-  const std::string name = valid_utf8(key.Scalar());
+  const std::string name = printable(key.Scalar(), where);
   if (const Tree* earlier = map.find(name)) {
-    throw InputError("the key '" + name +
-                         "' stands here for the second time; the first is in line " +
+    throw InputError("duplicate key '" + name + "'; the first is in line " +
                          std::to_string(earlier->key_where.line),
                      where);
   }
@@ -50,16 +64,16 @@ void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& v
 }
 
 Tree Conversion::operator()(const YAML::Node& node) {
-  constexpr int deepest = 50, most = 100'000;
+  constexpr int deepest = 50;
   Tree tree;
   tree.where = tree.key_where = place(file_, node.Mark());
   if (++depth_ > deepest)
     throw InputError(fmt::format("nested more than {} deep", deepest), tree.where);
-  if (++values_ > most)
-    throw InputError(fmt::format("more than {} values, aliases included", most), tree.where);
+  if (++values_ > most_)
+    throw InputError(fmt::format("more than {} values, aliases included", most_), tree.where);
   if (node.IsScalar()) {
     tree.kind = Tree::Kind::scalar;
-    tree.text = valid_utf8(node.Scalar());
+    tree.text = printable(node.Scalar(), tree.where);
   } else if (node.IsSequence()) {
     tree.kind = Tree::Kind::list;
     for (const YAML::Node& item : node) tree.items.push_back((*this)(item));
@@ -71,17 +85,40 @@ Tree Conversion::operator()(const YAML::Node& node) {
   return tree;
 }
 
-// Finds where the documents of a text begin. (YAML::LoadAll() of yaml-cpp 0.7 never returns from a
-// stray '}'.)
+// Returns whether the quoted text that begins at this place has an end
+bool has_end_quote(const std::string& text, std::size_t at) {
+  if (at >= text.size() || (text[at] != '"' && text[at] != '\'')) return true;
+  const char quote = text[at];
+  for (++at; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\')
+      ++at;  // the next character stands for itself
+    else if (text[at] == quote && quote == '\'' && text.compare(at, 2, "''") == 0)
+      ++at;  // a quote in the text
+    else if (text[at] == quote)
+      return true;
+  }
+  return false;
+}
+
+// Finds where the documents of a text begin, and its quotes. (YAML::LoadAll() of yaml-cpp 0.7 never
+// returns from a stray '}'. It takes the end of the text for a quote that is missing.)
 class Documents final : public YAML::EventHandler {
  public:
-  static std::optional<YAML::Mark> second_of(const std::string& text) {
+  // Throws InputError for a second document and for a quote that is not closed
+  static void expect_one(const std::string& text, const std::string& file) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     Documents documents;
     const bool is_another =
         parser.HandleNextDocument(documents) && parser.HandleNextDocument(documents);
-    return is_another ? std::optional(documents.start_) : std::nullopt;
+    if (is_another)
+      throw InputError("a second YAML document begins here; a scene is one",
+                       place(file, documents.start_));
+    const std::size_t mark =
+        text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // bytes before the text, of UTF-8
+    if (!documents.quoted_.is_null() &&
+        !has_end_quote(text, mark + static_cast<std::size_t>(documents.quoted_.pos)))
+      throw InputError("not YAML: a quote is not closed", place(file, documents.quoted_));
   }
 
  private:
@@ -91,13 +128,15 @@ class Documents final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const Mark&, YAML::anchor_t) override {}
   void OnAlias(const Mark&, YAML::anchor_t) override {}
-  void OnScalar(const Mark&, Text, YAML::anchor_t, Text) override {}
+  void OnScalar(const Mark& mark, Text tag, YAML::anchor_t, Text) override {
+    if (tag == "!") quoted_ = mark;  // the last one alone may lack its end
+  }
   void OnSequenceStart(const Mark&, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
   void OnSequenceEnd() override {}
   void OnMapStart(const Mark&, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
   void OnMapEnd() override {}
 
-  Mark start_;
+  Mark start_, quoted_ = Mark::null_mark();
 };
 
 // Returns the entry of a list by its number, or that of a map by its key; null: there is none
@@ -171,10 +210,9 @@ std::string Tree::to_text() const {
 Tree parse_tree(const std::string& text, const std::string& file) {
   try {
     const YAML::Node document = YAML::Load(text);
-    if (const auto second = Documents::second_of(text))
-      throw InputError("a scene is one YAML document; here begins another", place(file, *second));
+    Documents::expect_one(text, file);
     if (document.IsNull()) throw InputError("the scene is empty", {file});
-    return Conversion(file)(document);
+    return Conversion(file, text)(document);
   } catch (const YAML::Exception& error) {
     throw InputError(fault_of(text, error), place(file, error.mark));
   }
@@ -198,7 +236,9 @@ void override_value(Tree& root, const std::string& assignment, const std::string
     throw InputError("expected key.path=value", where);
   Tree value;
   try {
-    value = Conversion(where.file)(YAML::Load(assignment.substr(equals + 1)));
+    const std::string text = assignment.substr(equals + 1);
+    value = Conversion(where.file, text)(YAML::Load(text));
+    Documents::expect_one(text, where.file);
   } catch (const YAML::Exception& error) {
     throw InputError(fault_of(assignment.substr(equals + 1), error), where);
   }
@@ -245,12 +285,12 @@ Tree tree_of(const Json& json, const std::string& file) {
   tree.where.file = tree.key_where.file = file;
   if (json.is_string()) {
     tree.kind = Tree::Kind::scalar;
-    tree.text = json.get<std::string>();
+    tree.text = printable(json.get<std::string>(), tree.where);
   } else if (json.is_structured()) {
     tree.kind = json.is_array() ? Tree::Kind::list : Tree::Kind::map;
     for (const auto& [key, value] : json.items()) {
       tree.items.push_back(tree_of(value, file));
-      if (json.is_object()) tree.items.back().key = key;
+      if (json.is_object()) tree.items.back().key = printable(key, tree.where);
     }
   }
   return tree;

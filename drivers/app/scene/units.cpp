@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -155,6 +156,12 @@ std::string unit_pattern(const Dimension& dimension) {
         if (a.dimension != plain && times(a.dimension, b.dimension, n) == dimension)
           add(power(a, 1) + " *\\* *" + power(b, n));
       }
+  }
+  const std::string own = unit_of(dimension);  // unit in messages, which may have three factors
+  if (std::ranges::count(own, '*') + std::ranges::count(own, '/') > 1) {
+    std::string escaped;
+    for (const char c : own) escaped += (c == '*' || c == '^' ? "\\" : "") + std::string(1, c);
+    add(escaped);
   }
   return pattern;
 }

@@ -19,7 +19,7 @@ struct UnitInfo {
 std::vector<UnitInfo> unit_infos();
 
 /// Returns a regular expression for the units of a quantity of this dimension. A unit is one unit,
-/// or one unit times a power of another.
+/// one unit times a power of another, or what unit_of() returns.
 std::string unit_pattern(const Dimension& dimension);
 
 /// Number in SI units. No dimension: it was written without a unit.

@@ -19,16 +19,19 @@ if not {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"} & set(os.environ):
 
 from . import _plica  # noqa: E402
 from ._plica import Diagnosis, Energies, FileError, InputError
-from .mesh import Mesh
+from .check import check, explain
+from .mesh import Mesh, Surface
 from .mesh import whole as _whole
 from .scene import Scene, keys
-from .quantities import Cavity, Tool, Wrench
-from .simulation import Diverged, Simulation, close_all, report, view
+from .quantities import Cavity, Obstacle, Reaction, Tool, Wrench
+from .run import Diverged, Run
+from .simulation import Simulation, close_all, report, solve, view
 from .study import study
 
 __version__ = _plica.version()
-__all__ = ["Cavity", "Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "Tool", "Wrench", "info", "init",
-           "keys", "report", "study", "view"]
+__all__ = ["Cavity", "Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Obstacle", "Reaction",
+           "Run", "Scene", "Simulation", "Surface", "Tool", "Wrench", "check", "explain", "info", "init", "keys",
+           "report", "solve", "study", "view"]
 
 
 def init(threads: int = 0) -> None:
@@ -45,8 +48,10 @@ def info() -> dict:
 
 
 def _end() -> None:
+    _plica.end()
     close_all()
     _plica.finalize()
 
 
 atexit.register(_end)
+os.register_at_fork(after_in_child=_plica.after_fork)

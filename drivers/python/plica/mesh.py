@@ -16,6 +16,8 @@ from ._plica import InputError
 def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
     """The values, finite, as a contiguous array of this type; InputError says what was expected and what was given. -1: any length."""
     array = np.asarray(values)
+    if array.size == 0 and array.dtype.kind == "f":
+        array = array.astype(dtype)  # numpy's type of an empty list
     kinds = "f" if np.dtype(dtype).kind == "f" else "iu"
     fits = array.ndim == len(shape) and all(want in (-1, have) for want, have in zip(shape, array.shape))
     if not fits or array.dtype.kind not in kinds + "iu":
@@ -25,6 +27,8 @@ def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
     if not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name}: expected finite numbers, got {array[place]} at {list(place)}")
+    if kinds == "iu" and array.size and not np.iinfo(dtype).min <= int(array.min()) <= int(array.max()) <= np.iinfo(dtype).max:
+        raise InputError(f"{name}: expected whole numbers of {np.iinfo(dtype).bits} bits, got {array.min()} to {array.max()}")
     return np.ascontiguousarray(array, dtype=dtype)
 
 
@@ -43,14 +47,36 @@ def needed(module: str, by: str):
         raise ImportError(f"{by} needs {module}: pip install {module}") from error
 
 
+def numbered(name: str, values, count: int, of: str, shape: tuple = (-1,)) -> np.ndarray:
+    """The values, numbers from 0 below count; InputError says what was expected and what was given."""
+    array = checked(name, values, shape, np.int64)
+    if array.size and not 0 <= array.min() <= array.max() < count:
+        raise InputError(f"{name}: expected numbers of {of} from 0 to {count - 1}, got {array.min()} to {array.max()}")
+    return array.astype(np.int32)
+
+
+def _selected(name: str, values, count: int) -> np.ndarray:
+    """Numbers of vertices, from these or from a mask of all vertices."""
+    array = np.asarray(values)
+    if array.dtype.kind != "b":
+        return numbered(name, array, count, "vertices")
+    if array.shape != (count,):
+        raise InputError(f"{name}: expected a mask of {count} vertices, got {list(array.shape)}")
+    return np.flatnonzero(array).astype(np.int32)
+
+
 @dataclass
 class Mesh:
     """Tetrahedra at rest. It may stand for a level of a body, or for a key `file`, in a scene that is given in Python.
 
-    points: [vertices, 3] m.
+    points: [vertices, 3] m. Those that no tetrahedron uses are dropped by a scene, see Scene.rows().
     tets: [tetrahedra, 4] numbers of vertices, from 0. Inverted ones are turned when a scene takes the mesh.
     region: [tetrahedra] numbers into region_names; empty: one nameless region.
-    vertex_sets: named groups of vertices, for selections such as `fixed: [{group: base}]`.
+    region_names: left out: each number of region gets one, region_0 and so on, and region counts them.
+    vertex_sets: named groups of vertices, numbers or masks, for selections such as `fixed: [{group: base}]`.
+    filled: [tetrahedra] part of each that is body, above 0, at most 1; empty: all of each. Of files, .msh holds it.
+    tet_vectors: named vectors [tetrahedra, 3], such as directions of fibres.
+    triangle_sets: named groups of triangles [n, 3], numbers of vertices, for tractions and pressures; their vertices are a set, too.
     """
 
     points: np.ndarray
@@ -58,33 +84,68 @@ class Mesh:
     region: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     region_names: list = field(default_factory=list)
     vertex_sets: dict = field(default_factory=dict)
+    filled: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    tet_vectors: dict = field(default_factory=dict)
+    triangle_sets: dict = field(default_factory=dict)
 
     def __post_init__(self):
         self.points = checked("points", self.points, (-1, 3))
-        self.tets = checked("tets", self.tets, (-1, 4), np.int32)
+        self.tets = numbered("tets", self.tets, len(self.points), "vertices", (-1, 4))
         self.region = checked("region", self.region, (-1,), np.int32)
-        if self.tets.size and not 0 <= self.tets.min() <= self.tets.max() < len(self.points):
-            raise InputError(f"tets: expected numbers of vertices from 0 to {len(self.points) - 1}, got "
-                             f"{self.tets.min()} to {self.tets.max()}")
+        self.region_names = [str(name) for name in self.region_names]
         if self.region.size and len(self.region) != len(self.tets):
             raise InputError(f"region: expected one number for each of {len(self.tets)} tetrahedra, got {len(self.region)}")
+        if self.region_names:
+            self.region = numbered("region", self.region, len(self.region_names), "region_names")
+        elif self.region.size:
+            tags, region = np.unique(self.region, return_inverse=True)
+            if tags[0] < 0:
+                raise InputError(f"region: expected numbers from 0, got {tags[0]}")
+            self.region, self.region_names = region.astype(np.int32), [f"region_{tag}" for tag in tags]
+        self.vertex_sets = {str(name): _selected(f"vertex_sets: {name}", one, len(self.points)) for name, one in self.vertex_sets.items()}
+        self._check_more()
+
+    def _check_more(self):
+        count = len(self.tets)
+        self.filled = checked("filled", self.filled, (-1,))
+        if self.filled.size and (len(self.filled) != count or not 0 < self.filled.min() <= self.filled.max() <= 1):
+            raise InputError(f"filled: expected a number above 0, at most 1, for each of {count} tetrahedra, got {len(self.filled)} "
+                             f"from {self.filled.min()} to {self.filled.max()}")
+        self.tet_vectors = {str(name): checked(f"tet_vectors: {name}", one, (count, 3)) for name, one in self.tet_vectors.items()}
+        self.triangle_sets = {str(name): numbered(f"triangle_sets: {name}", one, len(self.points), "vertices", (-1, 3))
+                              for name, one in self.triangle_sets.items()}
+        for name, one in self.triangle_sets.items():
+            self.vertex_sets[name] = np.union1d(self.vertex_sets.get(name, np.zeros(0, np.int32)), one).astype(np.int32)
 
     def __repr__(self):
         return f"<plica.Mesh: {len(self.points)} vertices, {len(self.tets)} tetrahedra>"
 
     @classmethod
-    def read(cls, file) -> Mesh:
-        """Reads .msh, .vtk, .vtu or TetGen's files, as scenes do: checked and repaired."""
-        return cls(*_plica.read_mesh(os.fspath(file)))
+    def read(cls, file, *, scale: float = 1.0, regions: str = "", leave_out=(), order: str = "split") -> Mesh:
+        """Reads .msh, .mesh, .vtk, .vtu, .inp, .feb or TetGen's files, as scenes do: checked, with the options of a level's `file`.
+
+        scale: metres per unit of the file, such as 0.001.
+        regions: array of cells that numbers the regions; "none": no regions; "": the format's own, or an array with a usual name.
+        leave_out: names or numbers of regions that are no body.
+        order: of second-order tetrahedra: "split", in eight, or "linear", by their corners.
+        """
+        out = [leave_out] if isinstance(leave_out, (str, int, np.integer)) else leave_out
+        mesh = cls(*_plica.read_mesh(os.fspath(file), regions, [str(one) for one in out], order))
+        mesh.points *= scale
+        return mesh
 
     def write(self, file) -> None:
         """Writes a file in the format of its extension."""
         sets = {name: [int(i) for i in vertices] for name, vertices in self.vertex_sets.items()}
-        _plica.write_mesh(os.fspath(file), self.points, self.tets, self.region.tolist(), list(self.region_names), sets)
+        vectors = {name: one.tolist() for name, one in self.tet_vectors.items()}
+        triangles = {name: one.tolist() for name, one in self.triangle_sets.items()}
+        _plica.write_mesh(os.fspath(file), self.points, self.tets, self.region.tolist(), list(self.region_names), sets,
+                          self.filled.tolist(), vectors, triangles)
 
     @classmethod
     def from_meshio(cls, mesh, scale: float = 1.0) -> Mesh:
-        """From a meshio.Mesh: its tetrahedra, with Gmsh's physical volumes as regions and point sets as vertex sets.
+        """From a meshio.Mesh: its tetrahedra, with Gmsh's physical volumes as regions, its physical surfaces as triangle
+        sets and point sets as vertex sets.
 
         scale: metres per unit of its points, such as 0.001.
         """
@@ -102,4 +163,47 @@ class Mesh:
             known = {int(tag): name for name, (tag, dimension) in mesh.field_data.items() if dimension == 3}
             names = [known.get(int(tag), f"region_{tag}") for tag in tags]
         sets = {name: np.asarray(points) for name, points in getattr(mesh, "point_sets", {}).items()}
-        return cls(np.asarray(mesh.points, float) * scale, tets, region, names, sets)
+        surfaces = {int(tag): name for name, (tag, dimension) in mesh.field_data.items() if dimension == 2}
+        triangles = {name: np.concatenate([block.data[physical[i] == tag] for i, block in enumerate(mesh.cells) if block.type == "triangle"]
+                                          or [np.zeros((0, 3), np.int32)]) for tag, name in surfaces.items() if physical is not None}
+        return cls(np.asarray(mesh.points, float) * scale, tets, region, names, sets, triangle_sets=triangles)
+
+
+@dataclass
+class Surface:
+    """Triangles. It may stand for `body.surface`, for the `surface` of an obstacle, or for a key `file`, in a scene that is given in
+    Python. So may what has `vertices` and `faces`, as trimesh's meshes have, and pyvista's PolyData of triangles.
+
+    points: [points, 3] m.
+    triangles: [triangles, 3] numbers of points, from 0, counter-clockwise seen from outside.
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+
+    def __post_init__(self):
+        self.points = checked("points", self.points, (-1, 3))
+        self.triangles = numbered("triangles", self.triangles, len(self.points), "points", (-1, 3))
+
+    def __repr__(self):
+        return f"<plica.Surface: {len(self.points)} points, {len(self.triangles)} triangles>"
+
+    def write(self, file) -> None:
+        """Writes a file in Wavefront's format, OBJ."""
+        with open(file, "w", encoding="ascii") as out:
+            out.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in self.points.tolist())
+            out.writelines(f"f {a} {b} {c}\n" for a, b, c in (self.triangles + 1).tolist())
+
+
+def as_surface(value) -> Surface | None:
+    """The surface that a value of another library is; None: it is none."""
+    if isinstance(value, Surface):
+        return value
+    if hasattr(value, "vertices") and hasattr(value, "faces"):  # trimesh
+        return Surface(value.vertices, value.faces)
+    if hasattr(value, "points") and hasattr(value, "faces"):  # pyvista: sizes stand before each face's numbers
+        faces = np.asarray(value.faces).reshape(-1)
+        if faces.size % 4 or (faces[::4] != 3).any():
+            raise InputError("surface: expected triangles alone, as PolyData.triangulate() makes them")
+        return Surface(value.points, faces.reshape(-1, 4)[:, 1:])
+    return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a simulation says of obstacles and loads."""
+"""What a simulation says of obstacles, supports and loads."""
 
 from __future__ import annotations
 
@@ -21,6 +21,20 @@ class Wrench:
 
 
 @dataclass(frozen=True)
+class Reaction:
+    """What holds vertices, or moves them as given, does to the body. Outside, the opposite is felt.
+
+    force: [3] N.
+    torque: [3] N m, about `about`.
+    about: [3] m, the centre of the vertices' box at rest, or the point that they turn about.
+    """
+
+    force: np.ndarray
+    torque: np.ndarray
+    about: np.ndarray
+
+
+@dataclass(frozen=True)
 class Cavity:
     """How a load with `enclosed_volume` is.
 
@@ -30,6 +44,20 @@ class Cavity:
 
     volume: float
     pressure: float
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Where the motion of an obstacle has it.
+
+    displacement: [3] m, from where its shape says.
+    rotation: [3] rad, its direction the axis and its length the angle.
+    origin: [3] m, of the point that torques on it are about, where it is now.
+    """
+
+    displacement: np.ndarray
+    rotation: np.ndarray
+    origin: np.ndarray
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _plica
 from ._plica import InputError
-from .mesh import Mesh
+from .mesh import Mesh, as_surface, whole
 
 
 def keys() -> list[dict]:
@@ -30,15 +30,25 @@ class _Plain:
 
     def named(self, message: str) -> str:
         """The message, with the meshes in place of their files."""
-        return re.sub(re.escape(str(self.folder)) + r"/mesh_(\d+)\.msh(:\d+)?", r"plica.Mesh \1, its numbers from 1", message)
+        for pattern, kind in ((r"/mesh_(\d+)\.msh(:\d+)?", "Mesh"), (r"/surface_(\d+)\.obj(:\d+)?", "Surface")):
+            message = re.sub(re.escape(str(self.folder)) + pattern, rf"plica.{kind} \1, its numbers from 1", message)
+        return message
 
-    def __call__(self, value):
-        if isinstance(value, Mesh):
-            file = self.folder / f"mesh_{len(list(self.folder.iterdir()))}.msh"
-            value.write(file)
-            return {"file": str(file)}
+    def file(self, value) -> str | None:
+        """The file that a mesh or surface has become; None: the value is none."""
+        mesh = value if isinstance(value, Mesh) else as_surface(value)
+        if mesh is None:
+            return None
+        kind, ending = ("mesh", "msh") if isinstance(mesh, Mesh) else ("surface", "obj")
+        file = self.folder / f"{kind}_{len(list(self.folder.glob(kind + '*')))}.{ending}"
+        mesh.write(file)
+        return str(file)
+
+    def __call__(self, value, key: str = "", beside=()):
+        if (file := self.file(value)) is not None:  # lattices have the keys `surface` and `sizes`
+            return file if key == "file" or "sizes" in beside else {"file": file}
         if isinstance(value, dict):
-            return {str(key): self(one) for key, one in value.items()}
+            return {str(key): self(one, key, value) for key, one in value.items()}
         if isinstance(value, (list, tuple)):
             return [self(one) for one in value]
         if isinstance(value, (np.ndarray, np.generic)):
@@ -72,8 +82,11 @@ class Scene:
     Keyword arguments do the same for the keys of the top level, and dicts reach further down:
     Scene("ball.yaml", duration="0.5 s", integration={"macro_step": "1 ms"}).
 
-    A plica.Mesh may stand for a level of the body. File names in a dict are relative to the working directory. `plica.keys()`
-    lists all keys with units, ranges and defaults. InputError names the place, the value, what was expected and the nearest name.
+    A plica.Mesh may stand for a level of the body, a plica.Surface for a surface. File names in a dict are relative to the working
+    directory. `plica.keys()` lists all keys with units, ranges and defaults. InputError names the place, the value, what was
+    expected and the nearest name.
+
+    A scene pickles as what it was made of: files are read again, from where they were.
     """
 
     _scene = None  # until it is read
@@ -82,6 +95,7 @@ class Scene:
         if set is not None and not isinstance(set, dict):
             raise InputError(f'set: expected a dict such as {{"body.levels.0.box.cells": [8, 8, 8]}}, got {type(set).__name__}')
         values, file, text = dict(overrides), "", ""
+        self._made_of = os.path.abspath(source) if isinstance(source, (str, os.PathLike)) else _kept(source), _kept(set or {}), _kept(overrides)
         with tempfile.TemporaryDirectory(prefix="plica_") as folder:
             plain = _Plain(folder)
             if source is None:
@@ -97,6 +111,7 @@ class Scene:
                 self._scene = _plica.load(file, text, "scene", [(path, _words(value)) for path, value in changes])
             except InputError as error:
                 raise InputError(plain.named(str(error))) from None
+        self._folder = folder
         for warning in self._scene.warnings:
             warnings.warn(plain.named(warning), stacklevel=2)
 
@@ -119,6 +134,23 @@ class Scene:
         """A level's mesh at rest, as its file has it; 0 is the finest."""
         return Mesh(*self._scene.mesh(level))
 
+    def rows(self, level: int = 0) -> np.ndarray:
+        """[vertices] of a level: which point each row of positions() is. Of a plica.Mesh it is the row in its points, of a file the
+        number that it has there. Points that no tetrahedron uses have no row."""
+        count = len(self._scene.mesh(whole("level", level))[0])
+        file, numbers = self._scene.rows(level)
+        if not len(numbers):
+            return np.arange(count)
+        return numbers - 1 if os.path.dirname(file) == self._folder else numbers
+
+    def changed(self, *, set: dict | None = None, **overrides) -> Scene:
+        """Another scene: this one with other values put over it, as when it was made."""
+        source, before, keywords = self._made_of
+        return Scene(source, set={**before, **dict(_flat(overrides)), **(set or {})}, **keywords)
+
+    def __reduce__(self):
+        return _again, self._made_of
+
     def surface_triangles(self) -> np.ndarray | None:
         """[triangles, 3] points of the embedded surface, counter-clockwise seen from outside; None: the body has no surface."""
         return self._scene.surface()
@@ -129,6 +161,19 @@ class Scene:
         return f"<plica.Scene {self.name!r}: {self.duration:g} s, {self.levels} level{'s' * (self.levels != 1)}>"
 
 
+def _again(source, set: dict, overrides: dict) -> Scene:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it has said them once
+        return Scene(source, set=set, **overrides)
+
+
+def _kept(value):
+    """Dicts and lists of their own, which nobody else changes."""
+    if isinstance(value, dict):
+        return {key: _kept(one) for key, one in value.items()}
+    return [_kept(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
 def made(what: str, scene, set: dict | None, overrides: dict) -> Scene:
     """The scene, or one of it; InputError where `what` was to change one that is made already."""
     if not isinstance(scene, Scene):
@@ -136,6 +181,11 @@ def made(what: str, scene, set: dict | None, overrides: dict) -> Scene:
     if set or overrides:
         raise InputError(f"{what}: the scene is made already; give `set` and keyword arguments to plica.Scene")
     return scene
+
+
+def words(value) -> str:
+    """JSON of a value as it may stand in a scene."""
+    return _words(_text(_Plain("")(value)))
 
 
 def _text(value):

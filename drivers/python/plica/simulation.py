@@ -13,17 +13,19 @@ import weakref
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 
 from . import _plica
-from ._plica import Diagnosis, Energies, InputError
+from ._plica import Energies, InputError
 from .mesh import checked, needed, whole
-from .quantities import Cavity, Tool, Wrench
-from .scene import made
+from .obstacles import Obstacles
+from .quantities import Cavity, Reaction
+from .run import Diverged, Run, interval_of
+from .scene import Scene, made
 
 _all: weakref.WeakSet = weakref.WeakSet()
-_rounding = 1e-9  # of a macro step
 _forever = 2**62
 
 
@@ -31,14 +33,6 @@ def close_all() -> None:
     """Closes every simulation: none may outlive Kokkos."""
     for simulation in list(_all):
         simulation.close()
-
-
-class Diverged(RuntimeError):
-    """A run that cannot go on. `diagnosis` says why and where; the simulation is at its last good state."""
-
-    def __init__(self, diagnosis: Diagnosis):
-        super().__init__(str(diagnosis))
-        self.diagnosis = diagnosis
 
 
 def report(folder, *, frames: int = 200) -> Path:
@@ -61,69 +55,59 @@ def view(scene=None, *, port: int = 8642, browser: bool = True, precision: str =
     return Simulation(scene, precision=precision, set=set, **overrides)._view(taken, browser)
 
 
+def solve(scene=None, *, precision: str = "double", tolerance: float | None = None, set: dict | None = None, **overrides) -> Simulation:
+    """The equilibrium of a scene under its loads: a simulation at rest, with everything a Simulation has, such as `residual`.
+
+    scene: a YAML file or a dict, or a plica.Scene whose integration.cycle is rest. Of a scene with another cycle, all of
+        `integration` is left out; loads without a time function grow from zero within the duration.
+    tolerance: the norm of the forces that may stay unbalanced, over that of all forces; left out, integration.rest.tolerance.
+
+    Diverged where there is no equilibrium, or none is found: `diagnosis` says where forces are not balanced, and `simulation` is the
+    last load step at rest. For the states on the way go through Simulation(...).run(every="1 step") of a scene with cycle rest.
+    """
+    if isinstance(scene, Scene):
+        if set or overrides or tolerance is not None or scene._scene.cycle != "rest":
+            raise InputError("solve: the scene is made already; expected one with integration.cycle rest and nothing to change, or what makes one")
+        return _at_rest(Simulation(scene, precision=precision))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        cycle = Scene(scene, set=set, **overrides)._scene.cycle
+    changes = {"integration": {"cycle": "rest"}} if cycle != "rest" else {}
+    overrides = {key: value for key, value in overrides.items() if cycle == "rest" or key != "integration"}
+    changes |= {path: value for path, value in (set or {}).items() if cycle == "rest" or not path.startswith("integration")}
+    if tolerance is not None:
+        changes["integration.rest.tolerance"] = tolerance
+    return _at_rest(Simulation(scene, precision=precision, set=changes, **overrides))
+
+
+def _at_rest(simulation: Simulation) -> Simulation:
+    try:
+        return simulation.run()
+    except Diverged as error:
+        error.simulation = simulation
+        raise
+
+
 def _invite(browser: bool, address: str) -> None:
     opened = browser and webbrowser.open(address)
     print(f"{address} {'is open in the browser' if opened else ': open it in a browser on this machine'}; Ctrl-C ends it", flush=True)
 
 
-class Run:
-    """The frames of a run, one after the other. len() is how many there are at most; each is the simulation itself."""
-
-    def __init__(self, simulation: Simulation, end: float, every: float, steps: int, writes: bool):
-        self._simulation, self._start, self._end, self._every, self._steps = simulation, simulation.time, end, every, steps
-        self._writes = writes
-        macro_steps = self._count((end - simulation.time) / simulation.macro_step)
-        self._length = macro_steps
-        if steps:
-            self._length = math.ceil(macro_steps / steps)
-        elif every > simulation.macro_step:
-            self._length = self._count((end - simulation.time) / every)
-
-    @staticmethod
-    def _count(quotient: float) -> int:
-        return max(0, math.ceil(quotient - _rounding))
-
-    def __len__(self) -> int:
-        return self._length
-
-    def __iter__(self) -> Run:
-        return self
-
-    def __next__(self) -> Simulation:
-        simulation = self._simulation
-        slack = _rounding * simulation.macro_step
-        if simulation.time >= self._end - slack:
-            raise StopIteration
-        try:
-            if self._steps:
-                simulation._advance(self._end, self._steps)
-            else:
-                frame = math.floor((simulation.time - self._start + slack) / self._every) + 1
-                simulation._advance(min(self._start + frame * self._every, self._end))
-        except Diverged as error:
-            self._write("diverged", error.diagnosis)
-            raise
-        self._write("running" if simulation.time < self._end - slack else "completed", None)
-        return simulation
-
-    def _write(self, status: str, diagnosis: Diagnosis | None) -> None:
-        if self._writes:
-            self._simulation._open().write_frame(status, diagnosis)
-
-
-class Simulation:
+class Simulation(Obstacles):
     """A scene in motion.
 
     scene: a plica.Scene, or what makes one: the name of a YAML file or a dict, with `set` and keyword arguments as for Scene.
     precision: "double" or "float", of the computation; arrays are in double anyway.
 
     positions(), velocities(), surface_positions() and surface_velocities() return arrays that follow the simulation: they lie in
-    memory that C++ writes after every frame for as long as somebody holds them. Copy what is to stay as it is. They outlive the
-    simulation, and hand themselves to other libraries by DLPack. A simulation is for one thread at a time; while it steps, other
-    threads of Python run. Use it in a `with` statement, or close() it, to free its memory at once.
+    memory that C++ writes after every frame for as long as somebody holds them. They cannot be written to: copy what is to stay as
+    it is, or to be changed. They outlive the simulation, and their `base` hands the memory to other libraries by DLPack.
+
+    One thread at a time computes. Another one that asks for something waits until the macro step is done; while a simulation
+    steps, other threads of Python run. Use it in a `with` statement, or close() it, to free its memory at once.
     """
 
-    scene = _simulation = _folder = None  # until they are made
+    scene = _simulation = _folder = _forces = None  # until they are made
 
     def __init__(self, scene=None, *, precision: str = "double", set: dict | None = None, **overrides):
         self.scene = made("Simulation", scene, set, overrides)
@@ -132,11 +116,19 @@ class Simulation:
 
     # -- stepping
 
-    def run(self, duration: float | str | None = None, *, every: float | str | None = None, folder=None, force: bool = False):
+    @overload
+    def run(self, duration: float | str | None = None, *, every: None = None) -> Simulation: ...
+
+    @overload
+    def run(self, duration: float | str | None = None, *, every: float | str, folder: str | os.PathLike | None = None,
+            force: bool = False) -> Run: ...
+
+    def run(self, duration=None, *, every=None, folder=None, force=False) -> Simulation | Run:
         """Goes on for so long [s]; left out, for the scene's duration.
 
         Without `every` it runs at once and returns the simulation. With it, it returns the frames to go through: after each of
-        these intervals (seconds, "10 ms" or "5 steps") the simulation itself, at the first macro step that reaches it.
+        these intervals (seconds, "10 ms" or "5 steps") the simulation itself, at the first macro step that reaches it. A list of
+        them is the simulation many times, as it is at the end: keep what you want of each.
 
             for frame in tqdm(sim.run(0.5, every="10 ms")): ...
 
@@ -148,7 +140,7 @@ class Simulation:
         holds a run already is refused, unless `force` says to replace it.
         """
         simulation = self._open()
-        seconds = self.scene.duration if duration is None else _interval(duration, "duration")[0]
+        seconds = self.scene.duration if duration is None else interval_of(duration, "duration")[0]
         end = self.time + seconds
         if self.scene._scene.automatic_step:
             simulation.end_at(end)
@@ -157,7 +149,7 @@ class Simulation:
                 raise InputError("folder: frames are written only where `every` says when")
             self._advance(end)
             return self
-        interval, steps = _interval(every, "every")
+        interval, steps = interval_of(every, "every")
         if folder is not None:
             self._start_files(folder, force)
         return Run(self, end, interval, steps, folder is not None)
@@ -214,21 +206,27 @@ class Simulation:
         """Force evaluations, solver iterations and the like."""
         return self._open().counters
 
+    @property
+    def residual(self) -> float:
+        """The largest part of the forces that the last macro step left unbalanced, of an implicit level. With cycle rest: the norm of the
+        forces that are not balanced, over that of all forces."""
+        return self._open().residual
+
     def positions(self, level: int = 0) -> np.ndarray:
-        """[vertices, 3] m, of a level; follows the simulation."""
-        return self._open().positions(whole("level", level))
+        """[vertices, 3] m, of a level; follows the simulation. Rows: see Scene.rows()."""
+        return _read_only(self._open().positions(whole("level", level)))
 
     def velocities(self, level: int = 0) -> np.ndarray:
         """[vertices, 3] m/s, of a level; follows the simulation."""
-        return self._open().velocities(whole("level", level))
+        return _read_only(self._open().velocities(whole("level", level)))
 
     def surface_positions(self) -> np.ndarray:
         """[points, 3] m, of the embedded surface; no rows without one; follows the simulation."""
-        return self._open().surface_positions()
+        return _read_only(self._open().surface_positions())
 
     def surface_velocities(self) -> np.ndarray:
         """[points, 3] m/s, likewise."""
-        return self._open().surface_velocities()
+        return _read_only(self._open().surface_velocities())
 
     def von_mises(self, level: int = 0) -> np.ndarray:
         """Equivalent stress now [Pa]: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
@@ -238,57 +236,35 @@ class Simulation:
         """Volume ratio now: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
         return self._open().element_fields(whole("level", level))[2]
 
+    def stress(self, level: int = 0) -> np.ndarray:
+        """Cauchy stress now [Pa], without that of damping: [n, 6] xx yy zz xy yz xz, n as of von_mises()."""
+        return self._open().tensor_fields(whole("level", level))[0]
+
+    def pressure(self, level: int = 0) -> np.ndarray:
+        """Minus a third of the trace of stress() [Pa]: [n], above zero in compression."""
+        return self._open().tensor_fields(whole("level", level))[1]
+
+    def principal_stretches(self, level: int = 0) -> np.ndarray:
+        """Stretches along the principal directions now: [n, 3], the largest first; n as of von_mises()."""
+        return self._open().tensor_fields(whole("level", level))[2]
+
+    def contact_pressure(self) -> np.ndarray:
+        """Normal force of contact over the area now, at each point of surface_positions() [Pa]: 0 where nothing touches; empty
+        without contact. It is that of the last sub-step of level 0."""
+        return self._open().contact_pressure()
+
     def energies(self) -> Energies:
         """Of level 0 now [J]: kinetic, elastic, potential, contact, total."""
         return self._open().energies
 
-    def wrenches(self) -> dict[str, Wrench]:
-        """What each obstacle does to the body, by its name: the mean over the last macro step."""
-        return {name: Wrench(force, torque) for name, force, torque in self._open().wrenches()}
-
-    def contact_depths(self) -> dict[str, float]:
-        """How deep the surface is in each obstacle at its deepest place [m], by its name: 0 outside; points that it holds are
-        left out."""
-        return dict(zip(self.wrenches(), self._open().contact_depths()))
-
-    def tools(self) -> dict[str, Tool]:
-        """Where each obstacle with mass is now, by its name."""
-        return {name: Tool(*rest) for name, *rest in self._open().tools()}
+    def reactions(self) -> dict[str, Reaction]:
+        """What each entry of body.fixed and body.prescribed does to the body now, by its name: "fixed_0", "prescribed_0". Elastic
+        forces are computed anew for it; forces of one's own on these vertices are left out."""
+        return {name: Reaction(*rest) for name, *rest in self._open().reactions()}
 
     def cavities(self) -> dict[int, Cavity]:
         """How each load with `enclosed_volume` is now, by its number among body.loads: of level 0."""
         return {load: Cavity(volume, pressure) for load, volume, pressure in self._open().cavities()}
-
-    def move_obstacle(self, name: str, displacement, rotation=None) -> None:
-        """Moves an obstacle straight from where it is to a displacement within the next macro step. There it stays, and no longer
-        follows the scene; one with mass follows by its coupling.
-
-        displacement: [3] m, from where its shape says. To lead it along a path, call this before every step.
-        rotation: [3] rad, its direction the axis and its length the angle: it turns there in the same time, about the point of its
-        `turn`, or its origin. Left out: it turns as it did.
-        """
-        number = self._number("move_obstacle", name)
-        turned = None if rotation is None else checked("rotation", rotation, (3,)).tolist()
-        self._open().move_obstacle(number, checked("displacement", displacement, (3,)).tolist(), turned)
-
-    def grasp(self, name: str) -> None:
-        """An obstacle with `grasp` takes hold of the surface points that touch it now, or are within its reach, besides those that it
-        holds: springs tie them to where they are relative to it."""
-        self._open().grasp(self._number("grasp", name))
-
-    def release(self, name: str) -> None:
-        """It lets go of all that it holds."""
-        self._open().release(self._number("release", name))
-
-    def held(self) -> dict[str, np.ndarray]:
-        """The surface points that each obstacle with `grasp` holds, by its name."""
-        return {name: np.array(points, int) for name, points in self._open().held()}
-
-    def _number(self, asked: str, name: str) -> int:
-        names = list(self.wrenches())
-        if name not in names:
-            raise InputError(f"{asked}: unknown obstacle {name!r} (choices: {', '.join(names) or 'none'})")
-        return names.index(name)
 
     def report(self, *, frames: int = 200) -> Path:
         """Writes the page of the last run that had a `folder`: one file that a browser opens without a network. Its path."""
@@ -314,15 +290,30 @@ class Simulation:
     def to_pyvista(self, level: int = 0):
         """A pyvista.UnstructuredGrid of a level as it is now, with displacement [m], velocity [m/s], von_mises [Pa] and J."""
         pyvista = needed("pyvista", "to_pyvista")
-        mesh = self.scene.mesh(whole("level", level))
+        mesh, in_points, in_cells = self._fields(level)
         cells = np.hstack([np.full((len(mesh.tets), 1), 4), mesh.tets])
         grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), pyvista.CellType.TETRA), self.positions(level).copy())
-        grid.point_data["displacement"] = self.positions(level) - (mesh.points + self.scene._scene.placement)
-        grid.point_data["velocity"] = self.velocities(level).copy()
-        per_vertex, von_mises, J = self._open().element_fields(whole("level", level))
-        for name, values in (("von_mises", von_mises), ("J", J)):
-            (grid.point_data if per_vertex else grid.cell_data)[name] = values
+        grid.point_data.update(in_points)
+        grid.cell_data.update(in_cells)
         return grid
+
+    def to_meshio(self, level: int = 0):
+        """A meshio.Mesh of a level as it is now, with what to_pyvista() has; `region` numbers the regions, as Scene.mesh() names them."""
+        meshio = needed("meshio", "to_meshio")
+        mesh, in_points, in_cells = self._fields(level)
+        if mesh.region.size:
+            in_cells["region"] = mesh.region
+        sets = {name: np.asarray(points) for name, points in mesh.vertex_sets.items()}
+        return meshio.Mesh(self.positions(level).copy(), [("tetra", mesh.tets)], point_data=in_points,
+                           cell_data={name: [values] for name, values in in_cells.items()}, point_sets=sets)
+
+    def _fields(self, level: int):
+        """A level's mesh at rest, and what there is per point and per cell now."""
+        mesh = self.scene.mesh(whole("level", level))
+        in_points = {"displacement": self.positions(level) - (mesh.points + self.scene._scene.placement), "velocity": self.velocities(level).copy()}
+        per_vertex, von_mises, J = self._open().element_fields(level)
+        stress = {"von_mises": von_mises, "J": J}
+        return (mesh, in_points | stress, {}) if per_vertex else (mesh, in_points, stress)
 
     # -- what may be changed
 
@@ -339,19 +330,45 @@ class Simulation:
 
         Add to `out`, [vertices, 3] N; positions [m] and velocities [m/s] are alike. All three are for the call alone. On explicit
         levels such forces are stable up to a stiffness of about 4 m/h^2 of the vertices they act on. What it raises ends the step,
-        which is taken back.
+        which is taken back. It may read the simulation; what changes it is for between steps.
         """
         if forces is not None and not callable(forces):
             raise InputError(f"forces: expected a function, or None, got {type(forces).__name__}")
 
+        owner = weakref.ref(self)  # C++ holds what Python's collector does not see: only this
+
         def added(level, time, positions, velocities, out):
+            forces = owner()._forces
             if (answer := forces(level, time, positions, velocities, out)) is not None and answer is not out:
                 raise InputError(f"forces: expected it to add to `out` and return nothing, got {type(answer).__name__}")
 
         self._open().set_forces(forces and added)
+        self._forces = forces
+
+    def set_gravity(self, gravity) -> None:
+        """Sets gravity from now on: [3] m/s^2. Neither save() nor reset() stores it."""
+        self._open().set_gravity(checked("gravity", gravity, (3,)).tolist())
+
+    def changed(self, *, set: dict | None = None, **overrides) -> Simulation:
+        """A simulation of the scene with other values put over it, see Scene.changed(), which goes on from here: with this time, this
+        state of level 0 and these places of obstacles; those with mass begin at rest. It is for what a simulation has fixed, such as
+        materials.
+
+            softer = sim.changed(body={"material": {"young_modulus": "5 kPa"}})
+        """
+        other = Simulation(self.scene.changed(set=set, **overrides), precision=self.precision)
+        self._lead(other)
+        other.set_state(self.positions(), self.velocities())
+        return other
+
+    def reset(self) -> Simulation:
+        """Goes back to the start, with the same bits: obstacles move as the scene says, what they hold is let go. set_forces() and
+        set_gravity() stay. Where something has happened before the first call, this sets the scene up once more."""
+        self._open().reset()
+        return self
 
     def save(self) -> bytes:
-        """All that is needed to go on from here with the same bits; for restore() of the same scene."""
+        """All that is needed to go on from here with the same bits, also how obstacles are moved; for restore() of the same scene."""
         return self._open().save()
 
     def restore(self, saved: bytes) -> None:
@@ -372,6 +389,9 @@ class Simulation:
     def __exit__(self, *_) -> None:
         self.close()
 
+    def __reduce__(self):
+        raise TypeError("a simulation does not pickle; its scene does, and what save() returns")
+
     def _open(self):
         if self._simulation is None:
             raise RuntimeError("this simulation is closed")
@@ -385,17 +405,7 @@ class Simulation:
         return f"<plica.Simulation of {self.scene.name!r}: at {self.time:g} s, macro step {self.macro_step:g} s>"
 
 
-def _interval(value, name: str) -> tuple[float, int]:
-    """Seconds, or else macro steps, from a number or text with a unit."""
-    if isinstance(value, str):
-        seconds, steps = _plica.parse_every(name, value)
-        if steps and name != "every":
-            raise InputError(f"{name}: expected a time, got {value!r}; step() takes macro steps")
-    else:
-        try:
-            seconds, steps = float(value), 0
-        except (TypeError, ValueError):
-            raise InputError(f"{name}: expected a number of seconds or text such as '10 ms', got {value!r}") from None
-    if not steps and not (0 < seconds < math.inf):
-        raise InputError(f"{name}: expected a time (s) > 0, got {value!r}")
-    return seconds, steps
+def _read_only(array: np.ndarray) -> np.ndarray:
+    view = array.view()
+    view.flags.writeable = False
+    return view

@@ -8,7 +8,7 @@ import io
 from . import _plica
 from .mesh import needed
 from .scene import made
-from .simulation import _interval
+from .run import interval_of
 
 
 def study(scene=None, *, budget: float | str | None = None, set: dict | None = None, **overrides):
@@ -21,5 +21,5 @@ def study(scene=None, *, budget: float | str | None = None, set: dict | None = N
     """
     pandas = needed("pandas", "plica.study")
     scene = made("study", scene, set, overrides)
-    seconds = None if budget is None else _interval(budget, "budget")[0]
+    seconds = None if budget is None else interval_of(budget, "budget")[0]
     return pandas.read_csv(io.StringIO(_plica.study(scene._scene, seconds)))

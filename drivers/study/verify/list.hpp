@@ -39,6 +39,7 @@ VerifyRows conservation(const VerifyContext&);
 VerifyRows critical_steps(const VerifyContext&);
 VerifyRows hanging_bar(const VerifyContext&);
 VerifyRows uniaxial_tension(const VerifyContext&);
+VerifyRows stretched_block(const VerifyContext&);
 VerifyRows axial_bar(const VerifyContext&);
 VerifyRows bending(const VerifyContext&);
 VerifyRows cook_incompressible(const VerifyContext&);
@@ -51,6 +52,10 @@ VerifyRows tapered_membrane(const VerifyContext&);
 VerifyRows laws_of_tissue(const VerifyContext&);
 VerifyRows relaxation(const VerifyContext&);
 VerifyRows bending_heart_muscle(const VerifyContext&);
+VerifyRows artery(const VerifyContext&);
+VerifyRows thick_sphere(const VerifyContext&);
+VerifyRows turned_cylinder(const VerifyContext&);
+VerifyRows forces_of_supports(const VerifyContext&);
 VerifyRows twisting_column(const VerifyContext&);
 VerifyRows free_spin(const VerifyContext&);
 VerifyRows squash(const VerifyContext&);
@@ -87,6 +92,8 @@ inline constexpr VerifyProblem verify_list[] = {
     {"critical_step", "2/w_max against dense eigenvalues and against runs", critical_steps},
     {"hanging_bar", "a bar under its own weight", hanging_bar},
     {"uniaxial_tension", "a bar under traction at both ends", uniaxial_tension},
+    {"stretched_block", "energies of stretched blocks, and the forces of walls and rollers on them",
+     stretched_block},
     {"axial_bar", "axial frequencies of a bar fixed at one end", axial_bar},
     {"cantilever", "deflection and first frequency of a slender beam", cantilever},
     {"stopped_bar", "velocity pulses in a bar that is stopped at one end", stopped_bar},
@@ -112,6 +119,11 @@ inline constexpr VerifyProblem verify_list[] = {
     {"bending_heart_muscle",
      "a beam bent by a pressure that follows it (Land et al. 2015, problem 1), of nodal elements",
      bending_heart_muscle},
+    {"artery", "tubes under a pressure that follows them, neo-Hookean and with fibres", artery},
+    {"thick_sphere", "a thick hollow ball under a pressure that follows it", thick_sphere},
+    {"torsion", "a cylinder turned by half a turn: torque and the force along it", turned_cylinder},
+    {"supports", "forces and moments of rollers, walls and turned ends, in runs of cycle rest",
+     forces_of_supports},
     {"twisting_column",
      "a twisting column against its own finest mesh, and its energy, of both elements",
      twisting_column},

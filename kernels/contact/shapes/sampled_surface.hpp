@@ -26,7 +26,7 @@ void describe(V& v, SurfaceOptions& o) {
     "of its distance grid, along the longest extent; 0: 64, and more where it is thin");
   v("thickness", o.thickness, Quantity{length, not_negative},
     "of a sheet, which need not be closed: half of it on each side; 0: the inside of a closed "
-    "surface");
+    "surface, and for an open one a fiftieth of its length");
 }
 
 /// Inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in

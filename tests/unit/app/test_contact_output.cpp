@@ -11,7 +11,7 @@
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
-// What runs write of contact, and of the steps that it cuts.
+// What runs write of contact and supports, and of the steps that contact cuts.
 namespace plica::app::test {
 namespace {
 
@@ -45,6 +45,30 @@ TEST(RunFiles, HistoryTellsOfFriction) {
   once.problem.integration.implicit.newton_iterations = 1;
   EXPECT_EQ(most_halvings(once.problem), 0) << "nothing judges a step, and no contact";
   EXPECT_EQ(most_halvings(scene_of(block).problem), 0);
+}
+
+TEST(RunFiles, HistoryHasWhatHoldsVertices) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of(block);
+  scene.problem.body.fixed = {Box{{0, 0, 0}, {0, 1, 1}}};
+  scene.problem.body.prescribed = {{NearestSelection{{1, 0, 0}}, Point(1, 0, 0)}};
+  RunFiles files(scene, folder.path());
+  Snapshot now;
+  now.time = 0.25, now.positions = scene.problem.body.levels[0].vertices;
+  now.velocities.assign(now.positions.size(), Point::Zero());
+  now.reactions = {{"fixed_0", {1, 2, 3}, {4, 5, 6}}, {"prescribed_0", {7, 8, 9}, {10, 11, 12}}};
+  files.write(now);
+  const std::string text = content_of(folder / "history.csv");
+  EXPECT_NE(text.find(",fixed_0.force_x,fixed_0.force_y,fixed_0.force_z,fixed_0.torque_x,"),
+            std::string::npos);
+  EXPECT_NE(text.find(",prescribed_0.torque_y,prescribed_0.torque_z\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(",1,2,3,4,5,6,7,8,9,10,11,12\n")) << text;
+
+  Summary summary;
+  summary.reactions = now.reactions;
+  const auto json = nlohmann::json::parse(summary_json(scene, summary, {}));
+  EXPECT_EQ(json["reactions"]["prescribed_0"]["torque"].get<std::vector<double>>(),
+            (std::vector<double>{10, 11, 12}));
 }
 
 // The deepest of each obstacle, and of bodies, with the time; also where a run goes on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/scene/units.hpp>
@@ -29,15 +30,34 @@ TEST(Inputs, Selections) {
             "density: 3}"});
   const auto& fixed = scene.problem.body.fixed;
   ASSERT_EQ(fixed.size(), 5u);
-  EXPECT_EQ(std::get<Box>(fixed[0]).max, Point(0, 1, 1));
-  EXPECT_DOUBLE_EQ(std::get<BallSelection>(fixed[1]).radius, 0.02);
-  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2]).point, Point(0, 0, 0.01));
-  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2]).normal, Point::UnitZ());
-  EXPECT_EQ(std::get<NearestSelection>(fixed[3]).to, Point(1, 2, 0.003));
-  EXPECT_EQ(std::get<RegionSelection>(fixed[4]).name, "stiff");
+  EXPECT_EQ(std::get<Box>(fixed[0].where).max, Point(0, 1, 1));
+  EXPECT_DOUBLE_EQ(std::get<BallSelection>(fixed[1].where).radius, 0.02);
+  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2].where).point, Point(0, 0, 0.01));
+  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2].where).normal, Point::UnitZ());
+  EXPECT_EQ(std::get<NearestSelection>(fixed[3].where).to, Point(1, 2, 0.003));
+  EXPECT_EQ(std::get<RegionSelection>(fixed[4].where).name, "stiff");
   const RegionOptions& stiff = scene.problem.body.regions.at("stiff");
   EXPECT_DOUBLE_EQ(std::get<HalfSpaceSelection>(*stiff.where).point[0], 0.05);
   EXPECT_EQ(stiff.density, 3);
+}
+
+TEST(Inputs, Supports) {
+  const Scene scene =
+      with({"body.fixed=[{nearest: [0, 0, 0], along: [x, z]}, {nearest: [0, 1, 0], along: y}, "
+            "{nearest: [0, 2, 0], slide: normal}, {nearest: [0, 3, 0], slide: [0, 2, 1]}]",
+            "body.prescribed=[{nearest: [1, 0, 0], rotate: {axis: [0, 0, 2], about: [1 cm, 0, 0], "
+            "curve: [{time: 0, angle: 0}, {time: 1 s, angle: 180 deg}]}}]"});
+  const auto& fixed = scene.problem.body.fixed;
+  EXPECT_EQ(fixed[0].along, (std::vector<std::string>{"x", "z"}));
+  EXPECT_EQ(fixed[1].along, std::vector<std::string>{"y"});
+  EXPECT_FALSE(fixed[1].slide);
+  EXPECT_EQ(fixed[2].slide, Point(0, 0, 0));
+  EXPECT_EQ(fixed[3].slide, Point(0, 2, 1));
+  const std::optional<Turn>& turn = scene.problem.body.prescribed[0].rotate;
+  ASSERT_TRUE(turn && turn->about);
+  EXPECT_EQ(turn->axis, Point(0, 0, 2));
+  EXPECT_EQ(*turn->about, Point(0.01, 0, 0));
+  EXPECT_DOUBLE_EQ(std::get<PathTurn>(turn->angle).knots.at(1).angle, pi);
 }
 
 TEST(Inputs, Motions) {
@@ -138,10 +158,28 @@ TEST(Inputs, ToolsAreScaledTurnedAndMoved) {
 
   block.triangles.pop_back();
   std::ofstream(folder / "open.obj") << obj_of(block);
-  const std::string open =
-      error_of(sound_scene,
-               {"contact.obstacles.0={surface: {file: " + (folder / "open.obj").string() + "}}"});
-  EXPECT_NE(open.find("has no inside: 3 open edges, 0 edges of more"), std::string::npos) << open;
+  const auto opened = [&](const std::string& more) {
+    return with({"contact.obstacles.0={surface: {file: " + (folder / "open.obj").string() +
+                 ", scale: 0.001" + more + "}}"});
+  };
+  const auto thickness = [](const Scene& of) {
+    return std::any_cast<const SurfaceOptions&>(of.problem.contact.obstacles[0].shape).thickness;
+  };
+  const auto warned = [](const Scene& of, const std::string& words) {
+    return std::ranges::any_of(of.warnings, [&](const std::string& warning) {
+      return warning.find(words) != std::string::npos;
+    });
+  };
+  const Scene open = opened(""), given = opened(", thickness: 1 mm"), closed = opened(", cells: 4");
+  EXPECT_DOUBLE_EQ(thickness(open), 0.02 * 0.03);
+  EXPECT_TRUE(warned(open, "has no inside: 3 open edges, 0 edges of more"));
+  EXPECT_TRUE(warned(open, "taken as a sheet of 0.0006 m"));
+  EXPECT_DOUBLE_EQ(thickness(given), 0.001);
+  EXPECT_FALSE(warned(given, "sheet")) << "it was asked for";
+  EXPECT_EQ(thickness(closed), 0);
+  EXPECT_TRUE(warned(closed,
+                     "1 slit narrower than a cell of its distance grid, 0.0075 m, is closed; "
+                     "with a thickness it is a sheet"));
   const std::string missing =
       error_of(damaged("{plane: {point: [0, 0, -0.1]}", "{surface: {file: spoon.stl}"));
   EXPECT_EQ(missing,
@@ -157,7 +195,17 @@ struct Wrong {
 TEST(Inputs, ErrorsHaveTheirPlace) {
   const Wrong all[] = {
       {"  material:", "  prescribed: [{nearest: [0, 0, 0]}]\n  material:",
-       "a.yaml:7: body.prescribed.0: expected one of velocity, curve, sine, got a map (nearest)"},
+       "a.yaml:7: body.prescribed.0: expected one of velocity, curve, sine, rotate, got a map "
+       "(nearest)"},
+      {"  material:", "  fixed: [{nearest: [0, 0, 0], along: [u]}]\n  material:",
+       "a.yaml:7: body.fixed.0.along.0: unknown axis 'u' (choices: x, y, z)"},
+      {"  material:", "  fixed: [{nearest: [0, 0, 0], slide: norml}]\n  material:",
+       "a.yaml:7: body.fixed.0.slide: expected normal, or a list of 3 numbers, got 'norml'"},
+      {"  material:", "  fixed: [{nearest: [0, 0, 0], slide: [0, 0, 0]}]\n  material:",
+       "a.yaml:7: body.fixed.0.slide: expected a direction, got [0, 0, 0]"},
+      {"  material:", "  fixed: [{nearest: [0, 0, 0], along: [x], slide: normal}]\n  material:",
+       "a.yaml:7: body.fixed.0: expected only one of along, slide, got a map (nearest, along, "
+       "slide)"},
       {"  material:", "  prescribed: [{velocity: [0, 0, 0]}]\n  material:",
        "a.yaml:7: body.prescribed.0: expected one of box, sphere, half_space, group, region, "
        "nearest, "
@@ -166,7 +214,7 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
        "  prescribed: [{nearest: [0, 0, 0], velocity: [0, 0, 0], sine: {amplitude: [0, 0, 0], "
        "frequency: 1}}]\n  "
        "material:",
-       "a.yaml:7: body.prescribed.0: expected only one of velocity, curve, sine, got a map "
+       "a.yaml:7: body.prescribed.0: expected only one of velocity, curve, sine, rotate, got a map "
        "(nearest, velocity, sine)"},
       {"  material:", "  prescribed: [{nearest: [0, 0, 0], curv: []}]\n  material:",
        "a.yaml:7: body.prescribed.0: unknown key 'curv'; did you mean 'curve'?"},
@@ -295,7 +343,22 @@ TEST(Units, SaysThatDecimalsTakeAPoint) {
 TEST(Units, NamesDimensions) {
   EXPECT_EQ(name_of(pressure), "a pressure");
   EXPECT_EQ(unit_of(pressure), "Pa");
-  EXPECT_EQ(name_of({.mass = 2, .time = -1}), "a quantity in kg^2 s^-1");
+  EXPECT_EQ(name_of({.mass = 2, .time = -1}), "a quantity in kg^2/s");
+}
+
+// A user may copy any unit from a message into a scene.
+TEST(Units, AreReadAsTheyArePrinted) {
+  EXPECT_EQ(unit_of({.mass = 1, .length = 2}), "kg*m^2");
+  EXPECT_EQ(unit_of({.time = -2, .angle = -1}), "1/s^2/rad");
+  const auto expect_read = [](const Dimension& d) {
+    const Measured measured = measure(Quantity{d}.to_text(2));
+    EXPECT_EQ(measured.value, 2) << unit_of(d);
+    EXPECT_EQ(measured.dimension.value_or(plain), d) << unit_of(d);
+  };
+  for (int mass = -2; mass <= 2; ++mass)
+    for (int length = -3; length <= 3; ++length)
+      for (int time = -3; time <= 3; ++time)
+        for (int angle = -1; angle <= 1; ++angle) expect_read({mass, length, time, angle});
 }
 
 std::vector<long> due_steps(const Interval& every, double step, long last) {

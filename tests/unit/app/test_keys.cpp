@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/simulation.hpp>
 #include <regex>
 #include <set>
 
@@ -36,6 +38,25 @@ TEST(KeyList, SaysUnitRangeAndDefault) {
     EXPECT_EQ(key.type_text, "a pressure (Pa) > 0");
     EXPECT_EQ(key.otherwise, "20000 Pa");
   }
+}
+
+// The automatic step of him is another one than that of the other cycles.
+TEST(KeyList, SaysWhatTheAutomaticStepIs) {
+  const auto& keys = scene_keys();
+  const auto key = std::ranges::find(keys, "integration.macro_step", &KeyInfo::path);
+  ASSERT_NE(key, keys.end());
+  EXPECT_NE(key->help.find("8 critical steps of the finest level, or 4 with contact"),
+            std::string::npos)
+      << key->help;
+  using Host = Backend<double, Kokkos::DefaultHostExecutionSpace>;
+  const auto over_critical = [](const std::string& obstacles) {
+    const Scene scene =
+        scene_of(sound_scene, {"integration={cycle: him}", "contact.obstacles=" + obstacles});
+    const Simulation<Host> s(scene.problem);
+    return s.him()->usual_step / s.levels().front().critical_step;
+  };
+  EXPECT_NEAR(over_critical("[]"), 8, 0.1);
+  EXPECT_NEAR(over_critical("[{plane: {point: [0, 0, -0.1]}}]"), 4, 0.05);
 }
 
 TEST(KeyList, HasEveryObstacleShape) {
@@ -111,6 +132,8 @@ TEST(Schema, UnitsOfADimension) {
   for (const char* unit : {"m/s^2", "mm/ms2"}) EXPECT_TRUE(fits(acceleration, unit)) << unit;
   for (const char* unit : {"rad/s", "deg/s"}) EXPECT_TRUE(fits(angular_velocity, unit)) << unit;
   EXPECT_TRUE(fits(plain, "%"));
+  const Dimension angular_damping{.mass = 1, .length = 2, .time = -1};
+  for (const char* unit : {"kg*m^2/s", "J*s"}) EXPECT_TRUE(fits(angular_damping, unit)) << unit;
   for (const char* unit : {"s", "m/s", "metre", "m^2", "cPa", "%"})
     EXPECT_FALSE(fits(length, unit)) << unit;
   for (const char* unit : {"m", "m/s", "kg", "Hz/m"}) EXPECT_FALSE(fits(density, unit)) << unit;
@@ -160,6 +183,7 @@ TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
         "body.surface={boundary: true}",
         "output={every: 10 steps, volume: [0, 1], probes: {tip: [0.1, 2 cm, 20 mm]}, probe_every: "
         "1 ms}",
+        "output={volume: all, fields: [stress, pressure]}", "output.fields=contact_pressure",
         "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]",
         "study.truth=true", "study.truth={refinements: 1}", "body.jitter=0.2",
         "contact.obstacles=[]"}) {

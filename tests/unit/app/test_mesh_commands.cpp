@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
@@ -121,6 +122,19 @@ TEST_F(MeshCommands, ConvertInPlace) {
   EXPECT_EQ(half.vertices.back(), once.vertices.back() / 2);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3)
       << "nothing but s.obj is left";
+}
+
+TEST_F(MeshCommands, ConvertLeavesAMeshInPlaceAlone) {
+  ASSERT_EQ(plica({"convert", sample("blocks_41.msh"), at("a.msh")}).status, 0);
+  const std::string before = content_of(at("a.msh"));
+  std::filesystem::create_symlink("a.msh", at("same.msh"));
+  for (const char* out : {"a.msh", "same.msh"}) {
+    const Child child = plica({"convert", at("a.msh"), at(out)});
+    EXPECT_EQ(child.status, 2);
+    EXPECT_NE(child.errors.find("this is the file that is read"), std::string::npos)
+        << child.errors;
+  }
+  EXPECT_EQ(content_of(at("a.msh")), before);
 }
 
 TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
@@ -246,6 +260,99 @@ TEST_F(FillsWithGmsh, WhichIsStoppedWhereItHangs) {
   EXPECT_NE(instead.output.find("225 vertices"), std::string::npos) << instead.output;
   unsetenv("TMPDIR");
   expect_refused(fill_and({"--time-limit", "-1 s"}), "--time-limit");
+}
+
+// A cell of air, of the number 0, beside one of tissue
+const std::string two_cells =
+    "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0 1 0 "
+    "0 "
+    "0 1 0 0 0 1 1 1 1\nCELLS 2 10\n4 0 1 2 3\n4 1 2 3 4\nCELL_TYPES 2\n10 10\nCELL_DATA 2\n"
+    "SCALARS labels int 1\nLOOKUP_TABLE default\n0 1\nSCALARS kind int 1\nLOOKUP_TABLE "
+    "default\n4 5\n";
+
+TEST_F(MeshCommands, ReadAsSceneFilesDo) {
+  std::ofstream(at("two.vtk")) << two_cells;
+  EXPECT_EQ(info({at("two.vtk")})["regions"].size(), 2);
+  const Json kinds = info({at("two.vtk"), "--regions", "kind"});
+  EXPECT_EQ(kinds["regions"][0]["name"], "kind_4");
+  EXPECT_EQ(info({at("two.vtk"), "--leave-out", "0"})["tets"], 1);
+  EXPECT_EQ(info({at("two.vtk"), "--regions", "kind", "--leave-out", "kind_5"})["tets"], 1);
+  EXPECT_EQ(info({at("two.vtk"), "--regions", "none"})["regions"].size(), 1);
+  EXPECT_EQ(plica({"convert", at("two.vtk"), at("one.msh"), "--leave-out", "0"}).status, 0);
+  EXPECT_EQ(read_mesh(at("one.msh")).tets.size(), 1u);
+  EXPECT_EQ(info({sample("blocks_order2.msh"), "--order", "linear"})["tets"].get<int>() * 8,
+            info({sample("blocks_order2.msh")})["tets"].get<int>());
+  expect_refused({"info", at("two.vtk"), "--regions", "kin"}, "did you mean 'kind'?");
+  expect_refused({"info", at("two.vtk"), "--leave-out", "0,7"}, "leave_out: unknown region '7'");
+  expect_refused({"info", at("two.vtk"), "--leave-out", "0,,1"}, "between commas, got '0,,1'");
+  expect_refused({"info", at("two.vtk"), "--order", "linar"}, "did you mean 'linear'?");
+  expect_refused({"info", at("two.vtk"), "--weld", "0"}, "--weld is for surfaces of triangles");
+  expect_refused({"info", sample("blocks.stl"), "--order", "split"},
+                 "--order is for meshes of tetrahedra");
+  expect_refused(
+      {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size", "5 mm", "--leave-out", "1"},
+      "--leave-out is for images of labels");
+  expect_refused({"repair", at("two.vtk"), "-o", at("a.msh"), "--regions", "kin"}, "'kind'");
+  // a scale that was meant: millimetres are no unlikely metres
+  const Child scaled = plica({"convert", sample("blocks_41.msh"), at("mm.msh"), "--scale", "1000"});
+  EXPECT_EQ(scaled.status, 0);
+  EXPECT_EQ(scaled.errors.find("is the file in"), std::string::npos) << scaled.errors;
+  EXPECT_NE(plica({"convert", at("mm.msh"), at("a.msh")}).errors.find("is the file in mm?"),
+            std::string::npos);
+}
+
+// A ball of the label 2 in a shell of the label 1, of radii 5 and 9 voxels
+std::string image_of_a_ball() {
+  std::string labels;
+  for (int k = -10; k < 10; ++k)
+    for (int j = -10; j < 10; ++j)
+      for (int i = -10; i < 10; ++i) {
+        const double r =
+            std::sqrt((i + 0.5) * (i + 0.5) + (j + 0.5) * (j + 0.5) + (k + 0.5) * (k + 0.5));
+        labels += static_cast<char>(r < 5 ? 2 : r < 9 ? 1 : 0);
+      }
+  return "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 20 20 20\nspacings: 2 2 2\nencoding: raw\n"
+         "Segment0_LabelValue:=2\nSegment0_Name:=tumour\n\n" +
+         labels;
+}
+
+TEST_F(MeshCommands, FillOfAnImage) {
+  std::ofstream(at("a.nrrd"), std::ios::binary) << image_of_a_ball();
+  const Child filled = plica({"fill", at("a.nrrd"), "-o", at("a.msh"), "--size", "6 mm"});
+  EXPECT_EQ(filled.status, 0) << filled.errors;
+  EXPECT_NE(filled.output.find("NRRD, 20 x 20 x 20 voxels, lengths in units of 1 mm, as is usual"),
+            std::string::npos)
+      << filled.output;
+  const Json json = info({at("a.msh")});
+  EXPECT_EQ(json["regions"].size(), 2);
+  EXPECT_EQ(json["regions"][0]["name"], "label_1");
+  EXPECT_EQ(json["regions"][1]["name"], "tumour");
+  const double ball = 4.0 / 3 * 3.14159265 * 0.018 * 0.018 * 0.018;
+  EXPECT_NEAR(json["volume"].get<double>(), ball, 0.06 * ball);
+  EXPECT_EQ(plica({"fill", at("a.nrrd"), "-o", at("a.vtu"), "--size", "6 mm"}).status, 0);
+  EXPECT_EQ(read_mesh(at("a.vtu")).region_names, (std::vector<std::string>{"region_1", "region_2"}))
+      << "the array has the labels";
+  EXPECT_EQ(
+      plica({"fill", at("a.nrrd"), "-o", at("b.msh"), "--size", "6 mm", "--leave-out", "tumour"})
+          .status,
+      0);
+  EXPECT_EQ(read_mesh(at("b.msh")).region_names, std::vector<std::string>{"label_1"});
+  const Child metres =
+      plica({"fill", at("a.nrrd"), "-o", at("m.msh"), "--size", "6 m", "--scale", "1"});
+  EXPECT_NE(metres.errors.find("the body is"), std::string::npos) << "an unlikely size is doubted";
+  const std::vector<std::string> fill = {"fill", at("a.nrrd"), "-o", at("c.msh"), "--size"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), fill.begin(), fill.end());
+    return more;
+  };
+  expect_refused(with({"6 mm", "--with", "gmsh"}), "--with is for surfaces");
+  expect_refused(with({"6 mm", "--leave-out", "3"}), "unknown label '3'");
+  expect_refused(with({"6 mm", "--leave-out", "1,2"}), "no voxel with a label above 0");
+  expect_refused(with({"9 cm"}), "larger than the body");
+  std::ofstream(at("cut.nrrd"), std::ios::binary) << image_of_a_ball().substr(0, 4000);
+  expect_refused({"fill", at("cut.nrrd"), "-o", at("c.msh"), "--size", "6 mm"},
+                 "expected 8000, 1 for each of 20 x 20 x 20");
+  EXPECT_FALSE(std::filesystem::exists(at("c.msh")));
 }
 
 TEST_F(MeshCommands, PipesAndHugeNamesAreRefused) {

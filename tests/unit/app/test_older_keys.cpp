@@ -43,7 +43,7 @@ TEST(OlderKeys, SayTheSame) {
   const Scene scene = loaded(older);
   const Body& body = scene.problem.body;
   EXPECT_EQ(body.pressure, "smoothed");
-  EXPECT_EQ(std::get<HalfSpaceSelection>(body.fixed.at(0)).normal, Point::UnitZ());
+  EXPECT_EQ(std::get<HalfSpaceSelection>(body.fixed.at(0).where).normal, Point::UnitZ());
   EXPECT_EQ(std::get<HalfSpaceSelection>(*body.regions.at("plane").where).point[0], 0.05);
   EXPECT_EQ(std::get<PathMotion>(body.prescribed.at(0).motion).knots.size(), 2u);
   EXPECT_EQ(std::get<PolygonCourse>(body.loads.at(0).course).knots.at(0).factor, 2);

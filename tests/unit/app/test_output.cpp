@@ -223,6 +223,60 @@ TEST(RunFiles, VolumesHaveTheirFields) {
   EXPECT_EQ(frame.find("velocity")->values.size(), 81);
 }
 
+// A value for each tetrahedron in the order of the simulation, and where the file has it
+TEST(RunFiles, WriteTheFieldsThatAreAskedFor) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(
+      block, {"output.fields=[stress, pressure, principal_stretches, contact_pressure]",
+              "body.surface.boundary=true", "contact.obstacles=[{plane: {point: [0, 0, 0]}}]"});
+  RunFiles files(scene, folder.path());
+  Snapshot now = moved(scene, 0.25, {0, 0, 0.5});
+  ElementFields& fields = now.volumes[0].elements;
+  for (int e = 0; e < 48; ++e) {
+    for (const double s : {1, 2, 3, 4, 5, 6}) fields.stress.push_back(10 * e + s);
+    fields.pressure.push_back(-10 * e - 2);
+    for (const double l : {3, 2, 1}) fields.principal_stretches.push_back(e + l);
+  }
+  const std::size_t points = scene.problem.body.surface->vertices.size();
+  now.surface.assign(points, Point::Zero()), now.surface_velocities = now.surface;
+  for (std::size_t i = 0; i < points; ++i) now.contact_pressure.push_back(static_cast<double>(i));
+  files.write(now);
+  const FrameFile volume = read_frame(folder / "frames/volume_0000.vtu"),
+                  surface = read_frame(folder / "frames/surface_0000.vtu");
+  ASSERT_NE(volume.find("stress"), nullptr);
+  EXPECT_EQ(volume.find("stress")->components, 6);
+  EXPECT_TRUE(volume.find("stress")->of_cells);
+  EXPECT_EQ(volume.find("principal_stretches")->components, 3);
+  EXPECT_EQ(volume.find("pressure")->components, 1);
+  const std::vector<int>& order = scene.numbering[0].input.tets;
+  for (std::size_t row = 0; row < 48; ++row) {
+    const int e = order.empty() ? static_cast<int>(row) : order[row];
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_EQ(volume.find("stress")->values[6 * row + k], 10 * e + static_cast<int>(k) + 1);
+    EXPECT_EQ(volume.find("pressure")->values[row], -10 * e - 2);
+    EXPECT_EQ(volume.find("principal_stretches")->values[3 * row], e + 3);
+    EXPECT_EQ(volume.find("principal_stretches")->values[3 * row + 2], e + 1);
+  }
+  ASSERT_NE(surface.find("contact_pressure"), nullptr);
+  EXPECT_FALSE(surface.find("contact_pressure")->of_cells);
+  EXPECT_EQ(surface.find("contact_pressure")->values, now.contact_pressure);
+  EXPECT_EQ(volume.find("contact_pressure"), nullptr);
+}
+
+TEST(RunFiles, RefuseFieldsThatNobodyWrites) {
+  const auto refused = [](const std::vector<std::string>& sets) { return error_of(block, sets); };
+  EXPECT_NE(
+      refused({"output.fields=[stress, presure]"})
+          .find("output.fields.1: unknown field 'presure'; did you mean 'pressure'? (choices: "
+                "stress, pressure, principal_stretches, contact_pressure)"),
+      std::string::npos);
+  EXPECT_NE(refused({"output.fields=stress", "output.volume=false"}).find("expected output.volume"),
+            std::string::npos);
+  EXPECT_NE(refused({"output.fields=contact_pressure"}).find("expected contact.obstacles"),
+            std::string::npos);
+  EXPECT_EQ(refused({"output.fields=stress"}), "no error");
+}
+
 TEST(RunFiles, GoOnFromTheirMark) {
   const TemporaryFolder folder;
   const Scene scene = scene_of(block);

@@ -95,6 +95,12 @@ TEST_F(Program, BadInputIs2) {
   EXPECT_EQ(plica({"run", scene, "--no-such-option"}).status, 2);
   EXPECT_EQ(plica({"run", scene, "--precision", "half"}).status, 2);
   EXPECT_EQ(plica({"run", scene, "--threads", "0"}).status, 2);
+  EXPECT_EQ(plica({"check", scene, "--kokkos-num-threads=0"}).status, 2);
+  EXPECT_EQ(plica({"check", scene, "--kokkos-num-threads=many"}).status, 2);
+  for (const char* threads : {"KOKKOS_NUM_THREADS=abc", "KOKKOS_NUM_THREADS=-3"})
+    EXPECT_EQ(
+        run_child({"env", threads, std::string(PLICA_EXECUTABLE), "check", scene}, folder).status,
+        2);
   EXPECT_EQ(plica({"mesh"}).status, 2);
   EXPECT_EQ(plica({"mesh", "info", folder / "none.msh"}).status, 2);
   EXPECT_EQ(plica({"list", "material"}).status, 2);
@@ -114,6 +120,10 @@ TEST_F(Program, ErrorsNameTheNearest) {
   EXPECT_EQ(check.output, "");
   EXPECT_EQ(plica({"run", scene, "--thread", "2"})
                 .errors.find("error: unknown option '--thread'; did you mean '--threads'?"),
+            0);
+  EXPECT_EQ(plica({"--threads", "1", "run", scene})
+                .errors.find("error: '--threads' stands before the command; expected it "
+                             "behind: plica run --threads"),
             0);
   EXPECT_EQ(
       plica({"mesh"}).errors,
@@ -321,6 +331,25 @@ TEST_F(Program, ChecksWithoutRunning) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+// What a run refuses, the check refuses with the same words.
+TEST_F(Program, ChecksTheNumberOfSteps) {
+  for (const char* change : {"duration=1e18", "integration.macro_step=1e-30"}) {
+    const Child check = plica({"check", scene, "--set", change}),
+                run = plica({"run", scene, "-o", out, "--set", change});
+    EXPECT_EQ(check.status, 2) << change;
+    EXPECT_NE(check.errors.find("expected at most 1e+12"), std::string::npos) << check.errors;
+    EXPECT_EQ(check.errors, run.errors);
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(Program, LoopsOfLinksAre2) {
+  std::filesystem::create_symlink("loop.yaml", folder / "loop.yaml");
+  const Child check = plica({"check", folder / "loop.yaml"});
+  EXPECT_EQ(check.status, 2) << check.errors;
+  EXPECT_EQ(check.errors.find("filesystem error"), std::string::npos) << check.errors;
+}
+
 TEST_F(Program, ListsFamilies) {
   const Json families = Json::parse(plica({"list", "--json"}).output);
   EXPECT_GE(families.size(), 10);
@@ -405,6 +434,21 @@ TEST_F(Program, RunsCanBeDrawn) {
   const Child plot = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/run.py", out}, folder);
   EXPECT_EQ(plot.status, 0) << plot.errors;
   EXPECT_GT(std::filesystem::file_size(folder / "out/run.png"), 10000);
+}
+
+// Where nobody has chosen how threads wait, the program has started itself again.
+TEST_F(Program, WaitsPassively) {
+  std::vector<std::string> words = endless();
+  words.insert(words.begin(), {"env", "-u", "GOMP_SPINCOUNT", "-u", "OMP_WAIT_POLICY",
+                               std::string(PLICA_EXECUTABLE)});
+  std::string environment;
+  const Child run = run_child(words, folder, [&](pid_t id) {
+    if (!has_frames()) return false;
+    environment = content_of("/proc/" + std::to_string(id) + "/environ");
+    return kill(id, SIGTERM) == 0;
+  });
+  EXPECT_EQ(run.status, 130) << run.errors;
+  EXPECT_NE(environment.find("GOMP_SPINCOUNT=1000"), std::string::npos);
 }
 
 TEST_F(Program, KokkosOptionsPassThrough) {

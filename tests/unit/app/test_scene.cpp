@@ -220,6 +220,21 @@ TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
   EXPECT_EQ(m.fibres->axis, Point(0, 0, 2));
 }
 
+TEST(Scene, ListsOfATissueAreReplaced) {
+  const char* const law = "{model: neo_hookean, young_modulus: 50 kPa}";
+  const MaterialOptions m = scene_of(damaged(law, "{tissue: brain}")).problem.body.material;
+  EXPECT_EQ(m.terms.size(), 1U);
+  EXPECT_EQ(m.prony.size(), 2U);
+  EXPECT_EQ(m.density, 1040);
+  const MaterialOptions own =
+      scene_of(damaged(law, "{tissue: brain, prony: [], terms: [{mu: 1 kPa, alpha: 2}]}"))
+          .problem.body.material;
+  ASSERT_EQ(own.terms.size(), 1U);
+  EXPECT_EQ(own.terms[0].mu, 1000);
+  EXPECT_TRUE(own.prony.empty());
+  EXPECT_EQ(own.convention, "two_mu_over_alpha2");
+}
+
 TEST(Scene, FibresRunFromOneSetToAnother) {
   const Scene scene = scene_of(damaged(
       "{model: neo_hookean, young_modulus: 50 kPa}",

@@ -147,6 +147,19 @@ TEST_F(StabilityCommand, StopsWithItsBudgetAndAtCtrlCWithWholeFiles) {
   });
   EXPECT_EQ(run.status, 130) << run.errors;
   EXPECT_EQ(json()["status"], "interrupted");
+  EXPECT_TRUE(content_of(folder / "out/stability.csv").starts_with("case,method,expected,"));
+}
+
+// Whoever reads a table while it is made finds its head at once.
+TEST(StabilityMatrix, TablesHaveAHeadWithoutRows) {
+  EXPECT_EQ(stability_texts({"cpu", 2, "Serial", 1}, MatrixResult{}, "unfinished").csv,
+            "case,method,expected,outcome,ok,detail,why\n");
+  EXPECT_EQ(stability_texts(Scene{}, {"cpu", 2, "Serial", 1}, StabilityResult{}, "unfinished")
+                .csv.find("method,distribution,variant,integrator,status,"),
+            0U);
+  EXPECT_EQ(verify_csv({}),
+            "problem,quantity,unit,element,mesh,accepted,source,size,value,limit,order,judged,"
+            "tolerance,outcome,ok,note\n");
 }
 
 TEST(StabilityMatrix, AWrongRowIsSaidAndFails) {

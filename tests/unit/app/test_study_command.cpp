@@ -155,8 +155,9 @@ TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
   for (const auto& [name, kind] : row_fields)
     expected += (expected.empty() ? "" : ",") + (name == "error_probes" ? name + ".tip" : name);
   EXPECT_EQ(head, expected);
-  const Child again = study({"--set", "study.variants={bold: {allow_unstable: true, substeps: 2}}",
-                             "--set", "study.methods=[cycle/rsv/equal+bold]"});
+  const Child again =
+      study({"--force", "--set", "study.variants={bold: {allow_unstable: true, substeps: 2}}",
+             "--set", "study.methods=[cycle/rsv/equal+bold]"});
   EXPECT_EQ(again.errors.find("going on"), std::string::npos)
       << "with rows of another variant of that name";
 }
@@ -177,9 +178,14 @@ TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
   EXPECT_EQ(second["rows"][0], first["rows"][0]) << "measured again";
   EXPECT_NE(second["rows"][1]["wall_time"], first["rows"][1]["wall_time"]);
   EXPECT_EQ(second["rows"][1]["error"], first["rows"][1]["error"]);
-  const Child other = study({"--set", "body.material.young_modulus=2 MPa"});
+  const Child refused = study({"--set", "body.material.young_modulus=2 MPa"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("expected another folder, or --force"), std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(json(), second);
+  const Child other = study({"--force", "--set", "body.material.young_modulus=2 MPa"});
+  EXPECT_EQ(other.status, 0) << other.errors;
   EXPECT_EQ(other.errors.find("going on"), std::string::npos) << "with another scene's rows";
-  EXPECT_NE(other.errors.find("this one replaces it"), std::string::npos) << other.errors;
   EXPECT_NE(json()["rows"][0]["error"], first["rows"][0]["error"]);
 }
 

@@ -84,7 +84,7 @@ TEST_F(TruthCommand, IsAKeyOfTheScene) {
   EXPECT_EQ(json()["reference"]["truth"]["check"]["name"], "nodal, jittered");
   EXPECT_NE(run.output.find("two meshes show no order"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("not good enough"), std::string::npos) << run.output;
-  const Child without = study({"--set", "study.truth=false"});
+  const Child without = study({"--force", "--set", "study.truth=false"});
   ASSERT_EQ(without.status, 0) << without.errors;
   EXPECT_FALSE(json()["reference"].contains("truth"));
   ASSERT_EQ(json()["rows"].size(), 4u);

@@ -51,6 +51,23 @@ double total(const std::vector<double>& mass) {
   return sum;
 }
 
+// A plate, or the half-space above it, that touches the top holds it, on whichever side of it
+// rounding puts its face.
+TEST(Grasp, HoldsWhatTouches) {
+  for (const double off : {-1e-9, 0.0, 1e-9})
+    for (const bool endless : {false, true}) {
+      Problem p = cube_and_plate({.from = {0}});
+      ShapeOptions& shape = p.contact.obstacles[0].shape;
+      if (endless)
+        shape = PlaneOptions{{0, 0, top + off}, {0, 0, -1}};
+      else
+        shape = BlockOptions{{side / 2, side / 2, top + off + 0.01}, {0.2, 0.2, 0.02}};
+      Simulation<Host> s(p);
+      s.step();
+      EXPECT_EQ(held_points(s).size(), 25u) << off;
+    }
+}
+
 // What hangs on the plate pulls by its weight, and its highest points are weight / (points
 // stiffness) below where they were held.
 TEST(Grasp, HangsByItsSprings) {

@@ -15,6 +15,7 @@
 #include "support/bodies.hpp"
 #include "support/refusal.hpp"
 #include "support/simulate.hpp"
+#include "support/tolerance.hpp"
 
 // Obstacles that a caller moves while the simulation runs.
 namespace {
@@ -63,6 +64,58 @@ TEST(MovedObstacles, StayWhereTheyAreUntilTheyGetAMotion) {
   EXPECT_EQ(s.obstacle_displacement(0), Point(0.1, 0.2, 0.3));
   s.set_obstacle_motion(0, SteadyMotion{Point(1, 0, 0)});
   EXPECT_EQ(s.obstacle_displacement(0), Point(s.time(), 0, 0));
+}
+
+TEST(MovedObstacles, AreInASavedState) {
+  const auto go_on = [](Simulation<Host>& s) {
+    for (int n = 11; n <= 20; ++n) s.move_obstacle(0, to(n)), advance(s, 1);
+    return s.positions();
+  };
+  Simulation<Host> s(touched());
+  for (int n = 1; n <= 10; ++n) s.move_obstacle(0, to(n)), advance(s, 1);
+  const SavedState saved = s.save();
+  const auto there = go_on(s);
+  EXPECT_EQ(s.obstacle_displacement(0), to(20));
+  s.restore(saved);
+  EXPECT_EQ(s.obstacle_displacement(0), to(10));
+  EXPECT_TRUE(same_bits(go_on(s), there));
+  Simulation<Host> other(touched());
+  other.restore(saved);
+  EXPECT_EQ(other.obstacle_displacement(0), to(10));
+  EXPECT_TRUE(same_bits(go_on(other), there));
+}
+
+TEST(MovedObstacles, AreInASavedStateByMotionsOfAllKinds) {
+  const std::vector<Motion> motions = {SteadyMotion{Point(1, 2, 3)}, SineMotion{{1, 0, 2}, 3, 0.4},
+                                       PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 3, 0}}}}};
+  std::vector<std::optional<Turn>> turns = {
+      std::nullopt, Turn{{1, 1, 0}, Point(0.1, 0, 0), {0, 0.2, 0}, SteadyTurn{2}},
+      Turn{{0, 0, 1}, {}, {0, 0, 0}, SineTurn{0.3, 4, 0.1}},
+      Turn{{0, 1, 0}, Point(0, 1, 0), {0, 0, 0}, PathTurn{{{0, 0}, {0.1, 1.5}}}}};
+  for (const Motion& motion : motions)
+    for (const auto& turn : turns) {
+      Simulation<Host> s(touched()), other(touched());
+      s.set_obstacle_motion(0, motion), s.set_obstacle_turn(0, turn);
+      other.restore(s.save());
+      for (const double time : {0.0, 0.03, 0.2}) {
+        s.set_time(time), other.set_time(time);
+        EXPECT_EQ(s.obstacle_displacement(0), other.obstacle_displacement(0));
+        EXPECT_EQ(s.obstacle_rotation(0), other.obstacle_rotation(0));
+        EXPECT_EQ(s.obstacle_origin(0), other.obstacle_origin(0));
+      }
+    }
+}
+
+TEST(MovedObstacles, GoBackToTheProblemsMotionWithAStateOfIt) {
+  Problem p = touched();
+  p.contact.obstacles[0].motion = SteadyMotion{Point(-0.1, 0, 0)};
+  Simulation<Host> s(p);
+  const SavedState start = s.save();
+  s.move_obstacle(0, to(5));
+  advance(s, 3);
+  s.restore(start);
+  advance(s, 2);
+  EXPECT_EQ(s.obstacle_displacement(0), Point(-0.1 * s.time(), 0, 0));
 }
 
 TEST(MovedObstacles, AreRefusedWhereThereIsNone) {

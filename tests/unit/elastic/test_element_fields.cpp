@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <plica/core/error.hpp>
 #include <plica/drivers/run/material_points.hpp>
 #include <plica/drivers/study/level_probe.hpp>
@@ -100,22 +102,64 @@ double equivalent(const Matrix& sigma) {
   return std::sqrt(1.5) * (s - s.trace() / 3 * Matrix::Identity()).norm();
 }
 
+/// The fields of a body in a state x = F X, of linear or nodal elements.
 template <class B>
-void expect_everywhere(const Matrix& F, double stress, double J, const std::string& material) {
+ElementFields fields_of(const Matrix& F, const std::string& material, const std::string& element,
+                        const std::string& pressure = "auto") {
   Problem p =
       body_of({with_regions(jittered_box(decimetre, {3, 4, 3}), 0.05, "left", "right")}, material);
   p.body.material.poisson_ratio = poisson;
+  p.body.element = {element}, p.body.pressure = pressure;
   Simulation<B> simulation(p);
   std::vector<Point> u;
   for (const Point& X : p.body.levels[0].vertices) u.push_back((F - Matrix::Identity()) * X);
   simulation.set_state(u, std::vector<Point>(u.size(), Point::Zero()));
-  const ElementFields fields = simulation.element_fields();
-  ASSERT_EQ(fields.von_mises.size(), p.body.levels[0].tets.size());
-  ASSERT_EQ(fields.J.size(), p.body.levels[0].tets.size());
+  ElementFields fields = simulation.element_fields(0, true);
+  const std::size_t rows =
+      element == "nodal" ? p.body.levels[0].vertices.size() : p.body.levels[0].tets.size();
+  EXPECT_EQ(fields.von_mises.size(), rows);
+  EXPECT_EQ(fields.J.size(), rows);
+  EXPECT_EQ(fields.stress.size(), 6 * rows);
+  EXPECT_EQ(fields.pressure.size(), rows);
+  EXPECT_EQ(fields.principal_stretches.size(), 3 * rows);
+  EXPECT_TRUE(simulation.element_fields().stress.empty());
+  return fields;
+}
+
+/// The stress of a row.
+Matrix stress_of(const ElementFields& fields, std::size_t row) {
+  const double* const s = &fields.stress[6 * row];
+  Matrix sigma;
+  sigma << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return sigma;
+}
+
+/// All fields against a state's F and its stress, of whose symmetric part they are.
+template <class B>
+void expect_fields(const ElementFields& fields, const Matrix& F, const Matrix& stress) {
   using Real = typename B::Real;
+  const Matrix sigma = (stress + stress.transpose()) / 2;
+  const double close = round_off<Real>(500, std::max(young, sigma.norm()));
+  const Point stretches = Eigen::JacobiSVD<Matrix>(F).singularValues();
   for (std::size_t e = 0; e < fields.J.size(); ++e) {
-    EXPECT_NEAR(fields.von_mises[e], stress, round_off<Real>(500, young)) << e;
-    EXPECT_NEAR(fields.J[e], J, round_off<Real>(100)) << e;
+    EXPECT_NEAR(fields.von_mises[e], equivalent(sigma), close) << e;
+    EXPECT_NEAR(fields.J[e], F.determinant(), round_off<Real>(100)) << e;
+    const Matrix written = stress_of(fields, e);
+    EXPECT_LE((written - sigma).norm(), close) << e << "\n" << written << "\n" << sigma;
+    EXPECT_NEAR(equivalent(written), fields.von_mises[e], close) << e;
+    EXPECT_NEAR(fields.pressure[e], -sigma.trace() / 3, close) << e;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(fields.principal_stretches[3 * e + static_cast<std::size_t>(k)], stretches[k],
+                  round_off<Real>(200))
+          << e;
+  }
+}
+
+template <class B>
+void expect_everywhere(const Matrix& F, const Matrix& stress, const std::string& material) {
+  for (const char* element : {"linear", "nodal"}) {
+    SCOPED_TRACE(element);
+    expect_fields<B>(fields_of<B>(F, material, element), F, stress);
   }
 }
 
@@ -129,28 +173,145 @@ TYPED_TEST(ElementFieldsOn, KnownDeformations) {
     SCOPED_TRACE(name);
     for (const double stretch : {0.8, 1.3}) {
       const Matrix F = Eigen::Vector3d(stretch, 1, 1).asDiagonal();
-      expect_everywhere<TypeParam>(F, equivalent(known_stress(name, F, Matrix::Identity())),
-                                   stretch, name);
+      expect_everywhere<TypeParam>(F, known_stress(name, F, Matrix::Identity()), name);
     }
     const double shear = 0.4, angle = std::atan(shear / 2);
     Matrix F = Matrix::Identity(), R = Matrix::Identity();
     F(0, 1) = shear;
     R.topLeftCorner<2, 2>() << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-    expect_everywhere<TypeParam>(F, equivalent(known_stress(name, F, R)), 1, name);
+    expect_everywhere<TypeParam>(F, known_stress(name, F, R), name);
   });
 }
 
-TEST(ElementFields, ShearInNumbers) {  // mu sqrt(g^4 + 3 g^2) where sigma = mu dev b
-  Matrix F = Matrix::Identity();
-  F(0, 1) = 0.4;
-  expect_everywhere<Host>(F, law.mu * std::sqrt(std::pow(0.4, 4) + 3 * 0.16), 1, "neo_hookean");
+TEST(ElementFields, ShearInNumbers) {  // sigma = mu dev b: von Mises mu sqrt(g^4 + 3 g^2)
+  Matrix F = Matrix::Identity(), b;
+  const double g = 0.4;
+  F(0, 1) = g;
+  b << 1 + g * g, g, 0, g, 1, 0, 0, 0, 1;
+  expect_everywhere<Host>(F, law.mu * (b - (1 + g * g / 3) * Matrix::Identity()), "neo_hookean");
+  const ElementFields fields = fields_of<Host>(F, "neo_hookean", "linear");
+  EXPECT_NEAR(fields.von_mises[0], law.mu * std::sqrt(std::pow(g, 4) + 3 * g * g), 1e-8);
+  EXPECT_NEAR(fields.stress[3], law.mu * g, 1e-8);  // xy is the fourth, xz the last
+  EXPECT_NEAR(fields.stress[5], 0, 1e-8);
+  const double most = (g + std::sqrt(g * g + 4)) / 2;
+  EXPECT_NEAR(fields.principal_stretches[0], most, 1e-12);
+  EXPECT_NEAR(fields.principal_stretches[1], 1, 1e-12);
+  EXPECT_NEAR(fields.principal_stretches[2], 1 / most, 1e-12);
+}
+
+// P F^T / J with the nominal stress P of Hooke's law. Stretched by 1.2 along x: P_xx = (lambda + 2
+// mu) 0.2 acts on an area that stays, P_yy = lambda 0.2 on one that is 1.2 times as large.
+TEST(ElementFields, LinearIsCauchysStress) {
+  const Matrix F = Point(1.2, 1, 1).asDiagonal();
+  const double along = 0.2 * (law.lambda + 2 * law.mu), across = 0.2 * law.lambda / 1.2;
+  for (const char* element : {"linear", "nodal"}) {
+    const ElementFields fields = fields_of<Host>(F, "linear", element);
+    EXPECT_NEAR(fields.von_mises[0], along - across, 1e-8);
+    EXPECT_NEAR(fields.pressure[0], -(along + 2 * across) / 3, 1e-8);
+  }
+}
+
+// A body that turns takes its stress with it; the other fields stay.
+TEST(ElementFields, TurnWithTheBody) {
+  std::mt19937 random(5);
+  Matrix F;
+  F << 1.15, 0.2, -0.1, 0.05, 0.9, 0.15, -0.1, 0.1, 1.05;
+  const Matrix Q = random_rotation(random);
+  Materials::for_each([&](auto material) {
+    if (!decltype(material)::rotation_invariant) return;
+    const std::string name = decltype(material)::name;
+    SCOPED_TRACE(name);
+    for (const char* element : {"linear", "nodal"}) {
+      const Matrix before = stress_of(fields_of<Host>(F, name, element), 0);
+      EXPECT_GT(before.norm(), 100);
+      expect_fields<Host>(fields_of<Host>(Q * F, name, element), Q * F, Q * before * Q.transpose());
+    }
+  });
+}
+
+/// S x by its definition: the mean over a vertex's tetrahedra of the means over their vertices.
+std::vector<double> smooth(const TetMesh& mesh, const std::vector<double>& x) {
+  std::vector<double> sum(x.size(), 0), volume(x.size(), 0);
+  for (const auto& t : mesh.tets) {
+    const auto X = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    const double V = tet_volume(X(0), X(1), X(2), X(3));
+    double mean = 0;
+    for (const int v : t) mean += x[static_cast<std::size_t>(v)] / 4;
+    for (const int v : t)
+      sum[static_cast<std::size_t>(v)] += V * mean, volume[static_cast<std::size_t>(v)] += V;
+  }
+  for (std::size_t a = 0; a < sum.size(); ++a) sum[a] /= volume[a];
+  return sum;
+}
+
+/// The volume ratio of each vertex's own F, the mean of its tetrahedra's.
+std::vector<double> own_volume_ratios(const TetMesh& mesh, const std::vector<Point>& u) {
+  std::vector<Matrix> F(u.size(), Matrix::Zero());
+  std::vector<double> volume(u.size(), 0), J;
+  for (const auto& t : mesh.tets) {
+    Matrix X, x;
+    for (int c = 0; c < 3; ++c) {
+      const auto v = static_cast<std::size_t>(t[static_cast<std::size_t>(c) + 1]),
+                 o = static_cast<std::size_t>(t[0]);
+      X.col(c) = mesh.vertices[v] - mesh.vertices[o], x.col(c) = X.col(c) + u[v] - u[o];
+    }
+    const double V = X.determinant();
+    for (const int v : t) {
+      F[static_cast<std::size_t>(v)] += V * x * X.inverse();
+      volume[static_cast<std::size_t>(v)] += V;
+    }
+  }
+  for (std::size_t a = 0; a < u.size(); ++a) J.push_back((F[a] / volume[a]).determinant());
+  return J;
+}
+
+// Smoothed pressures, in a state of disorder. J is J~ = S J, and the other fields go with it: the
+// pressure is that of lambda = 2 mu at J~, and the smoothed one of the rest.
+TEST(ElementFields, SmoothedPressureIsWritten) {
+  Problem p = body_of({jittered_box(decimetre, {4, 4, 4})}, "neo_hookean");
+  p.body.material.poisson_ratio = 0.499, p.body.element = {"nodal"}, p.body.pressure = "smoothed";
+  const TetMesh mesh = p.body.levels[0];
+  const auto u = random_field(mesh.vertices.size(), 0.002, 3);
+  Simulation<Host> simulation(p);
+  simulation.set_state(u, std::vector<Point>(u.size(), Point::Zero()));
+  const ElementFields fields = simulation.element_fields(0, true);
+  const auto c = lame_constants(young, 0.499);
+  const std::vector<double> own = own_volume_ratios(mesh, u), J = smooth(mesh, own);
+  std::vector<double> excess;
+  for (const double j : J) excess.push_back((c.lambda - 2 * c.mu) / 2 * (j - 1 / j));
+  excess = smooth(mesh, excess);
+  double apart = 0;
+  for (std::size_t a = 0; a < J.size(); ++a) {
+    apart = std::max(apart, std::abs(own[a] - J[a]));
+    EXPECT_NEAR(fields.J[a], J[a], 1e-12) << a;
+    const double* const l = &fields.principal_stretches[3 * a];
+    EXPECT_NEAR(l[0] * l[1] * l[2], J[a], 1e-10) << a;
+    const double pressure = -excess[a] - 8 * c.mu / 3 / 2 * (J[a] - 1 / J[a]);
+    EXPECT_NEAR(fields.pressure[a], pressure, 1e-10 * c.lambda) << a;
+    EXPECT_NEAR(fields.pressure[a], -stress_of(fields, a).trace() / 3, 1e-10 * c.lambda) << a;
+    EXPECT_NEAR(fields.von_mises[a], equivalent(stress_of(fields, a)), 1e-10 * c.lambda) << a;
+  }
+  EXPECT_GT(apart, 0.02);
+}
+
+// Affine states have no need of smoothing: all laws that can be smoothed have their own fields.
+TEST(ElementFields, SmoothedFieldsOfAffineStates) {
+  Matrix F;
+  F << 1.1, 0.2, -0.1, 0.05, 0.95, 0.1, 0, 0.1, 0.98;
+  Materials::for_each([&](auto material) {
+    using M = decltype(material);
+    if (!smooths_dilatation<M>) return;
+    SCOPED_TRACE(M::name);
+    const Matrix plain = stress_of(fields_of<Host>(F, M::name, "nodal", "plain"), 0);
+    expect_fields<Host>(fields_of<Host>(F, M::name, "nodal", "smoothed"), F, plain);
+  });
 }
 
 TEST(ElementFields, RotationFeelsNothing) {
   std::mt19937 random(11);
   Materials::for_each([&](auto material) {
     if (decltype(material)::rotation_invariant)
-      expect_everywhere<Host>(random_rotation(random), 0, 1, decltype(material)::name);
+      expect_everywhere<Host>(random_rotation(random), Matrix::Zero(), decltype(material)::name);
   });
 }
 

@@ -120,11 +120,12 @@ TEST(MaterialParameters, OfTissueAreRefusedWhereTheyDoNotMakeABody) {
   EXPECT_EQ(with("ogden", {.convention = "mu_over_alpha", .terms = {{1e3, 0}}}),
             "body.material.terms.0.alpha is 0; expected a number other than 0");
   EXPECT_EQ(with("linear", {.volume = "quadratic"}),
-            "body.material.volume is quadratic; linear has its own, expected none");
+            "body.material.volume is quadratic; linear has its own; remove this key");
   EXPECT_EQ(
       with("costa", {.fibres = FibreOptions{.sheet = Point::UnitX(), .around = FibreWinding{}}}),
-      "body.fibres.sheet: fibres around a line have their sheets on cylinders about it; expected "
-      "none");
+      "body.fibres.sheet: fibres around a line have their sheets on cylinders about it; remove "
+      "this "
+      "key");
   EXPECT_EQ(with("costa", {.fibres = FibreOptions{.around = FibreWinding{}}}), "");
   EXPECT_EQ(with("costa", complete({.model = "costa"})), "");
   body.material = {}, body.regions["wall"].fibres = FibreOptions{Point::UnitX(), Point::UnitY()};

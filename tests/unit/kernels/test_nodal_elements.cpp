@@ -401,7 +401,7 @@ TEST(NodalElements, StressOfAnAffineMotionIsTheSameEverywhere) {
   const Scalars<Host> stress("test.stress", probe.vertices()), J("test.J", probe.vertices());
   level.elasticity().stress(
       level.exec(), level,
-      device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())), stress, J);
+      device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())), {stress, J});
   const auto c = lame_constants(20e3, 0.35);
   const double want = von_mises(cauchy_stress<NeoHookean>(mat3<double>(F), c));
   for (std::size_t a = 0; a < probe.vertices(); ++a) {

@@ -245,6 +245,9 @@ TEST(Cavity, IsRefusedWhereThereIsNone) {
               std::get<EnclosedVolume>(p.body.loads[0].load).ratio = 0;
             }).find("body.loads.0.enclosed_volume.ratio"),
             std::string::npos);
+  Problem automatic = balloon(1.2);
+  automatic.integration.cycle = "auto";
+  EXPECT_NO_THROW(validate(automatic)) << "which chooses single";
 }
 
 }  // namespace

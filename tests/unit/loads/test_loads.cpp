@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/core/time_functions.hpp>
+#include <plica/drivers/body/selection.hpp>
+#include <plica/drivers/run/join_bodies.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/contact_law.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -104,6 +107,54 @@ TYPED_TEST(Loads, GiveTheirImpulseWhereverTheyAct) {
     // half the ramp, then all of it; to the step's order
     EXPECT_NEAR(momentum, 0.2 * (0.01 + 0.02), 0.2 * 5e-4);
   }
+}
+
+// Twenty triangles of the right face around one that is none of them, and that has all of its
+// vertices in common with them
+std::vector<std::array<int, 3>> ring_of_triangles(const TetMesh& mesh) {
+  std::vector<std::pair<double, std::array<int, 3>>> face;
+  const auto at = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
+  for (const auto& t : boundary_triangles(mesh)) {
+    const Point middle = (at(t[0]) + at(t[1]) + at(t[2])) / 3;
+    if (middle[0] > 0.0999)
+      face.emplace_back((middle - Point(0.1, 0.051, 0.058)).norm(), std::array{t[2], t[1], t[0]});
+  }
+  std::ranges::sort(face);
+  std::vector<std::array<int, 3>> ring;
+  for (std::size_t i = 1; i <= 20; ++i) ring.push_back(face[i].second);
+  return ring;
+}
+
+// 20 triangles of 1 / 32 of the face each; by their vertices more would be loaded
+TEST(Loads, ActOnTheTrianglesOfAGroupAlone) {
+  TetMesh mesh = box_mesh({{0, 0, 0}, {0.1, 0.1, 0.1}}, {4, 4, 4});
+  mesh.triangle_sets["patch"] = ring_of_triangles(mesh);
+  std::set<int> vertices;
+  for (const auto& t : mesh.triangle_sets["patch"]) vertices.insert(t.begin(), t.end());
+  for (const char* name : {"patch", "points"})
+    mesh.vertex_sets[name] = {vertices.begin(), vertices.end()};
+  EXPECT_GT(select_triangles(mesh, GroupSelection{"points"}, {"where", 0}).size(), 20u);
+  Problem p = body_of({mesh});
+  p.body.loads = {{GroupSelection{"patch"}, Traction{{10, -20, 5}}, {}}};
+  const double area = 20 * 0.01 / 32;
+  const auto resultant = [&] {
+    LevelProbe<Host> probe(p);
+    const auto z = probe.zero(0);
+    return sum(probe.force(z, z, 0, 0));
+  };
+  EXPECT_LE((resultant() - area * Point(10, -20, 5)).norm(), 1e-14);
+  p.body.loads = {{GroupSelection{"patch"}, FollowerPressure{40}, {}}};
+  EXPECT_LE((resultant() - area * Point(-40, 0, 0)).norm(), 1e-14) << "into the body";
+
+  // of two bodies in one
+  const Body both = join_bodies({{"one", p.body}, {"two", p.body}});
+  for (const auto& load : both.loads)
+    EXPECT_EQ(select_triangles(both.levels[0], load.where, {"where", 0}).size(), 20u);
+  // triangles inside the body are no boundary
+  p.body.levels[0].triangle_sets["patch"] = {{0, 1, 31}};
+  EXPECT_NE(
+      refusal([&] { resultant(); }).find("body.loads.0: the group has 1 triangles on level 0"),
+      std::string::npos);
 }
 
 TEST(Loads, FollowTheirCourse) {

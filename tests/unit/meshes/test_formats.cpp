@@ -34,6 +34,23 @@ TEST(Formats, EveryFileHoldsTheSameBlocks) {
   }
 }
 
+TEST(Formats, NumbersThatTheMeshDoesNotHaveAreNotWritten) {
+  const TetMesh sound = read_mesh(sample("blocks.mesh"));
+  const auto refused = [&](const auto& spoil) {
+    TetMesh mesh = sound;
+    spoil(mesh);
+    for (const char* name : {"m.msh", "m.vtk", "m.vtu", "m.mesh", "m.node"}) {
+      SCOPED_TRACE(name);
+      EXPECT_THROW(write_mesh(name, mesh), InputError);
+    }
+  };
+  refused([](TetMesh& m) { m.region_names.clear(); });
+  refused([](TetMesh& m) { m.region[3] = 2; });
+  refused([](TetMesh& m) { m.region[3] = -1; });
+  refused([](TetMesh& m) { m.region.pop_back(); });
+  refused([](TetMesh& m) { m.tets[5][2] = static_cast<int>(m.vertices.size()); });
+}
+
 TEST(Formats, SecondOrderIsSplitInEight) {
   for (const char* name : {"blocks_order2.msh", "blocks_order2.vtk"}) {
     SCOPED_TRACE(name);

@@ -269,6 +269,24 @@ TEST(CompareLevels, DoubtsNoCommittedMesh) {
   EXPECT_EQ(same(ball(16), ball(4)), SameBody::yes);
   EXPECT_EQ(same(ball(4), ball(2)), SameBody::yes);
   EXPECT_EQ(same(ball(16), ball(1)), SameBody::doubtful);  // a cube of 37 % of the volume
+  const auto part = [&](const char* of, const char* whole) {
+    return covers_part(mesh_size(read(of), {1000}), mesh_size(read(whole), {1000}));
+  };
+  for (const char* coarse : {"liver_medium.msh", "liver_coarse.msh"})
+    EXPECT_FALSE(part("liver_fine.msh", coarse) || part(coarse, "liver_fine.msh")) << coarse;
+}
+
+TEST(CompareLevels, RefusesAPartOfTheBody) {
+  const auto box = [](double length, int cells) {
+    return mesh_size(box_mesh({{0, 0, 0}, {length, 0.1, 0.1}}, {cells, 2, 2}), {1000});
+  };
+  EXPECT_TRUE(covers_part(box(0.3, 6), box(0.4, 8)));
+  EXPECT_TRUE(covers_part(box(0.2, 16), box(0.4, 2))) << "by two edges, and half of the volume";
+  EXPECT_FALSE(covers_part(box(0.4, 8), box(0.3, 6))) << "it is the whole";
+  EXPECT_FALSE(covers_part(box(0.39, 32), box(0.4, 8))) << "by less than an edge";
+  MeshSize other = box(0.3, 6);
+  other.box.min[0] -= 0.2, other.box.max[0] -= 0.2;
+  EXPECT_FALSE(covers_part(other, box(0.4, 8))) << "it lies elsewhere";
 }
 
 TEST(CompareLevels, RefusesAnotherScaleOrPlace) {

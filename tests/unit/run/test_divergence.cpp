@@ -187,6 +187,31 @@ TYPED_TEST(Divergence, FasterThanSoundIsFoundWhereEnergiesAreNotCompared) {
   EXPECT_NE(bad->text().find("edges moved in a sub-step"), std::string::npos) << bad->text();
 }
 
+// A program's own forces may be what throws a vertex out: only where there are some, they are
+// named.
+TYPED_TEST(Divergence, NamesForcesOfTheCallerAsACause) {
+  Problem p = small_cube();
+  p.integration.macro_step = 1e-5;
+  const auto thrown = [&](bool by_caller) {
+    Simulation<TypeParam> simulation(p);
+    const auto last = simulation.velocity().extent(0) - 1;
+    using Real = typename TypeParam::Real;
+    if (by_caller)
+      simulation.set_external_forces([last](const ForceRequest<TypeParam>& request) {
+        request.exec.fence();
+        request.force(last, 2) += Real(1e9);
+      });
+    else
+      simulation.velocity()(last, 2) = Real(1e7);
+    simulation.step();
+    return simulation.check().value();
+  };
+  const Diagnosis own = thrown(true), other = thrown(false);
+  EXPECT_NE(own.remedy.find("forces of your own (set_external_forces"), std::string::npos)
+      << own.text();
+  EXPECT_EQ(other.remedy.find("set_external_forces"), std::string::npos) << other.text();
+}
+
 // A plane holds at any depth, but a point that is further in than the body is large was not pushed
 // there
 TYPED_TEST(Divergence, APointFarInsideAnObstacleIsLost) {

@@ -282,9 +282,12 @@ TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
             std::string::npos);
   EXPECT_NE(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.04}}, {2, 2, 2})).find("0.1 x 0.1 x 0.04 m"),
             std::string::npos);
-  p.integration.cycle = "single";  // does not look at the second
-  EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})), "");
+  p.integration.cycle = "single";  // looks at the second only for what level 0 may lack
+  EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {1e-3, 1e-3, 1e-3}}, {2, 2, 2})), "");
   EXPECT_TRUE(other_doubts(p).empty());
+  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2}))
+                .find("is the file of level 1 in mm?"),
+            std::string::npos);
   p.integration.cycle = "rs";
   EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.08}}, {2, 2, 2})), "");
   ASSERT_EQ(other_doubts(p).size(), 1);
@@ -292,6 +295,26 @@ TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
             "body.levels: level 1 differs from level 0: 0.1 x 0.1 x 0.08 m, 0.0008 m^3, 0.8 kg, "
             "centroid [0.05, 0.05, "
             "0.04] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]");
+}
+
+// A finest level of 30 of a beam's 40 cm is the beam to no cycle: it would move 3 kg of 4.
+TEST(LevelsOfOneBody, CoverAllOfIt) {
+  const TetMesh part = box_mesh({{0, 0, 0}, {0.3, 0.1, 0.1}}, {12, 4, 4}),
+                whole = box_mesh(beam_box, {8, 2, 2});
+  Problem p = body_of({part, whole});
+  const std::string numbers =
+      "0.3 x 0.1 x 0.1 m, 0.003 m^3, 3 kg, centroid [0.15, 0.05, 0.05] of 0.4 x 0.1 x 0.1 m, 0.004 "
+      "m^3, 4 kg, centroid [0.2, 0.05, 0.05]; expected levels of the whole body";
+  for (const char* cycle : {"single", "him", "rsv", "fas"}) {
+    p.integration.cycle = cycle;
+    EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
+              "body.levels: level 0 covers a part of level 1: " + numbers)
+        << cycle;
+  }
+  p.body.levels = {box_mesh(beam_box, {12, 4, 4}),
+                   box_mesh({{0, 0, 0}, {0.3, 0.1, 0.1}}, {6, 2, 2})};
+  EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
+            "body.levels: level 1 covers a part of level 0: " + numbers);
 }
 
 // The same body, but denser on its coarse level: a region that has lost its name there.

@@ -152,6 +152,29 @@ TEST(ChooseCycle, TakesTheFinestLevelAloneWhereThereIsNoOther) {
   EXPECT_EQ(choice.reason, "there is no coarser level");
 }
 
+// What him refuses is no reason to refuse the scene: level 0 alone steps it. Nothing is timed.
+TEST(ChooseCycle, TakesLevel0AloneWhereHimCannotStepTheScene) {
+  Problem damped = sagging("interactive"), filled = damped;
+  damped.body.damping.stiffness = 1e-5;
+  filled.body.loads = {{left_face(), EnclosedVolume{1.2, 1e3}, {}}};
+  const Simulation<Host> alone(level_0_alone(damped));
+  const double duration = long_run * alone.macro_step();
+  for (const auto& [p, why] : {std::pair{damped, "body.damping.stiffness is above 0"},
+                               {filled, "body.loads.0.enclosed_volume needs cycle single"}}) {
+    long asked = 0;
+    const ChoiceOptions options{duration, [&asked] { return static_cast<double>(asked++); }};
+    const CycleChoice choice = choose_cycle<Host>(p, alone, options).value();
+    EXPECT_EQ(choice.cycle, "single");
+    EXPECT_TRUE(choice.trials.empty());
+    EXPECT_LE(asked, 1);
+    EXPECT_NE(choice.reason.find(why), std::string::npos) << choice.reason;
+    const std::string ahead = trials_ahead(p, duration, alone.levels().front(), alone.macro_step());
+    EXPECT_EQ(ahead, "a run takes single: " + choice.reason);
+  }
+  Simulation<Host> simulation(with_choice(damped, choose_cycle<Host>(damped, {})));
+  advance(simulation, 5);
+}
+
 TEST(ChooseCycle, TakesTheUsualStepWhereNothingMoves) {
   Problem p = sagging("accurate");
   p.gravity = Point::Zero();

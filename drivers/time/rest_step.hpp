@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <plica/core/text.hpp>
+#include <plica/drivers/time/implicit_step.hpp>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// Load step to equilibrium, for the cycle `rest`.
+///
+/// A load step takes stages of backward Euler, each from a state without velocity:
+///
+///   minimise  E(u) + |u - u_k|^2_M / 2 l^2,   l the length of the stage [s]
+///
+/// until a stage begins with balanced forces (pseudo-transient continuation: Kelley & Keyes, SIAM
+/// J. Numer. Anal. 35, 1998). E falls from stage to stage. l grows while stages are solved, up to
+/// where the second term vanishes beside the stiffness: a stage is then Newton's method for
+/// equilibrium. l is shorter where that method fails, or where the body goes far before it finds
+/// what it touches. So a body may be held by contact alone, or soften. Masses have no part in the
+/// result.
+///
+/// Loads, given motions and obstacles are at the end of the load step in all stages; obstacles get
+/// there in the first. A load step that does not come to rest is not solved, see unsolved().
+template <class B>
+class RestStep final : public ImplicitStep<B> {
+  using Real = typename B::Real;
+
+ public:
+  RestStep(const LevelData<B>& level, const IntegratorParts<B>& parts)
+      : ImplicitStep<B>(level, parts),
+        tolerance_(parts.rest),
+        edge_(parts.edge),
+        critical_(parts.critical_step > 0 && std::isfinite(parts.critical_step)
+                      ? parts.critical_step
+                      : 1e-6) {}
+
+  void reset_history() override {
+    length_ = 0;
+    this->stages().forget_dilatations();
+  }
+  int failed_vertex() const override { return worst_; }
+  std::string failure() const override {
+    if (!(this->unsolved() > 0)) return {};
+    return text("no equilibrium was found at ", number(end_, 4),
+                " s: ", number(this->unsolved(), 3),
+                " of the forces are not balanced, most at this vertex; expected at most ",
+                number(tolerance_, 3));
+  }
+  void name_fields(Archive<B>& archive) override {
+    ImplicitStep<B>::name_fields(archive);
+    archive.number(length_);
+  }
+
+ protected:
+  bool step(Level<B>& level, double time, double h) override {
+    end_ = time + h, worst_ = -1;
+    if (length_ == 0) length_ = first_length * critical_;
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0, failures = 0; k < most_stages && failures < most_failures; ++k) {
+      const bool solved = stage(level, time, h, k == 0);
+      if (this->stages().began_at_rest()) return stop(level), true;
+      const bool moved = k == 0 && level.prescribed.count > 0;
+      if (!solved && (moved || length_ < critical_)) break;
+      const double left = this->stages().unsolved(),
+                   way = level.contact() && !moved ? this->stages().farthest(level) / edge_ : 0;
+      // without an equilibrium, what is not balanced does not become less
+      const bool runs_away = k >= few_stages && way < near && !(left < progress * before);
+      if (!solved || runs_away) ++failures;
+      before = left;
+      adapt(level, solved, way);
+    }
+    find_worst(level);
+    stop(level);
+    return false;
+  }
+
+ private:
+  // lengths of stages, over the critical step: the first one, and the longest. In the last, even a
+  // mode of a ten-thousandth of the highest frequency moves to its equilibrium but for 3e-7
+  static constexpr double first_length = 1e3, longest = 1e7;
+  static constexpr double grows = 100, shrinks = 0.1;
+  // maximum ways of a vertex in a stage with contact, in edges: for a longer stage, and at all
+  static constexpr double near = 0.5, far = 2;
+  static constexpr int most_stages = 60, most_failures = 10, few_stages = 3;
+  // part of the forces that were not balanced, of which a stage leaves less
+  static constexpr double progress = 0.9;
+  // part of the load step in which obstacles stand still, in all stages but the first
+  static constexpr double instant = 1e-9;
+
+  double tolerance_, edge_, critical_;
+  double length_ = 0;  ///< length of the next stage [s]; 0: that of a first one
+  double end_ = 0;     ///< end of the last load step [s]
+  int worst_ = -1;
+
+  /// Sets all velocities to 0.
+  static void stop(const Level<B>& level) { fill(level.exec(), level.state.v, Real(0)); }
+
+  /// Takes a stage of length_ from the level's state; returns whether it was solved.
+  bool stage(Level<B>& level, double time, double h, bool first) {
+    StageSolver<B>& stages = this->stages();
+    stop(level);
+    if (first) prescribe(level.exec(), level, level.state, time, h);
+    stages.base().copy(level.exec(), level.state);
+    return stages.solve(level, first ? time : time + h, first ? h : 0, {length_ * length_, length_},
+                        {.span = first ? h : instant * h});
+  }
+
+  /// Accepts a stage, or takes it back, and sets the length of the next one. `way`: the largest of
+  /// a vertex in the stage, in edges, where the body may touch something.
+  void adapt(Level<B>& level, bool solved, double way) {
+    StageSolver<B>& stages = this->stages();
+    if (way > far) {  // the body would pass through what it has not found
+      copy(level.exec(), level.state.u, stages.base().u);
+      length_ *= std::sqrt(near / way);
+      return stages.forget_dilatations();
+    }
+    if (level.contact()) level.response().end_stage(level.exec(), level, level.state);
+    if (!solved)
+      length_ *= shrinks;
+    else if (way < near)
+      length_ = std::min(grows * length_, longest * critical_);
+    if (solved) stages.forget_dilatations();
+  }
+
+  /// Finds the vertex with the largest force that is not balanced.
+  void find_worst(const Level<B>& level) {
+    const auto force = host_values(level.exec(), level.f),
+               inverse_mass = host_values(level.exec(), level.model.inverse_mass);
+    double most = 0;
+    for (std::size_t a = 0; a < inverse_mass.size(); ++a) {
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        square += static_cast<double>(force[3 * a + k]) * static_cast<double>(force[3 * a + k]);
+      if (inverse_mass[a] > 0 && square > most) most = square, worst_ = static_cast<int>(a);
+    }
+  }
+};
+
+}  // namespace plica
