@@ -67,9 +67,9 @@ struct FindOnFaces {
     records.set_stencil(r, p[0], p[1], p[2], -1, w[0], w[1], w[2], 0);
     Vec3<Real> at;
     for (int c = 0; c < 3; ++c) at += w[c] * vector_at<B>(records.places, p[c]);
-    records.use(r, records.obstacle_law(obstacle, p[0]), pose.to_world(out_of(gap.normal, x, w)),
-                beyond, records.span * pose.velocity(at),
-                records.span * pose.template rate<Real>());
+    records.use(r, records.obstacle_law(obstacle, p[0]),
+                pose.to_world(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
+                records.span * pose.velocity(at), records.span * pose.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0)
         set_block<B>(records.concavity, r,
@@ -102,40 +102,13 @@ struct FindOnFaces {
     return bound;
   }
 
-  /// Returns the normal of the deepest place on the triangle x, whose corners have the weights w
-  /// there. It is the obstacle's, without its part along directions in which the place can move:
-  /// all in the triangle, or along a side for a place on one. For a smooth obstacle that part is 0.
-  /// On the edge of a box it is not: the distance has two normals there, and rounding chooses one
-  /// of them. A force along it would do work while the depth stays, and make energy. Where little
-  /// is left, as where a thin tool pierces the triangle, it returns the triangle's own normal, into
-  /// the body.
-  static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal, const Vec3<Real>* x,
-                                                  const Vec3<Real>& w) {
-    // weight of a corner where a place is on the side across; part that the search may leave
-    constexpr Real on_side = Real(2e-3), unseen = Real(0.1);
-    const Vec3<Real> inward = cross(x[1] - x[0], x[0] - x[2]);
+  /// Returns the obstacle's normal. Where a thin tool pierces the triangle, that normal is along
+  /// the triangle; then it returns the triangle's own, the direction of `inward`, into the body.
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal,
+                                                  const Vec3<Real>& inward) {
     const Real along = dot(normal, inward), square = dot(inward, inward);
-    if (!(square > 0)) return normal;
-    const Vec3<Real> across = (along / square) * inward, in_plane = normal - across;
-    Vec3<Real> kept;  // part of in_plane that leads out of the triangle
-    int sides = 0;
-    for (int c = 0; c < 3; ++c) {
-      if (!(w[c] < on_side)) continue;
-      ++sides;
-      const Vec3<Real> side = x[(c + 2) % 3] - x[(c + 1) % 3], d = x[c] - x[(c + 1) % 3],
-                       to_corner = d - (dot(d, side) / dot(side, side)) * side;
-      kept =
-          (Kokkos::max(Real(0), dot(in_plane, to_corner)) / dot(to_corner, to_corner)) * to_corner;
-    }
-    if (sides == 2) kept = in_plane;  // the place is a corner
-    const Vec3<Real> vanishes = in_plane - kept;
-    if (dot(vanishes, vanishes) < unseen * unseen) {
-      if (4 * along * along > square) return normal;
-      return (1 / Kokkos::sqrt(square)) * inward;
-    }
-    const Vec3<Real> left = across + kept;
-    const Real size = dot(left, left);
-    return 4 * size > 1 ? (1 / Kokkos::sqrt(size)) * left : (1 / Kokkos::sqrt(square)) * inward;
+    if (!(square > 0) || 4 * along * along > square) return normal;
+    return (1 / Kokkos::sqrt(square)) * inward;
   }
 };
 
