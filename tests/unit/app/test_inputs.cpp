@@ -198,7 +198,7 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
        "a.yaml:7: body.prescribed.0: expected one of velocity, curve, sine, rotate, got a map "
        "(nearest)"},
       {"  material:", "  fixed: [{nearest: [0, 0, 0], along: [u]}]\n  material:",
-       "a.yaml:7: body.fixed.0.along.0: unknown axis 'u' (choices: x, y, z)"},
+       "a.yaml:7: body.fixed.0.along.0: unknown axis 'u'; did you mean 'x'?"},
       {"  material:", "  fixed: [{nearest: [0, 0, 0], slide: norml}]\n  material:",
        "a.yaml:7: body.fixed.0.slide: expected normal, or a list of 3 numbers, got 'norml'"},
       {"  material:", "  fixed: [{nearest: [0, 0, 0], slide: [0, 0, 0]}]\n  material:",
