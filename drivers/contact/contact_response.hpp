@@ -68,6 +68,10 @@ class ContactResponse {
   /// step is. With its own forces a short step would push out at once the overlap that was at rest.
   void set_part(double part) { part_ = part; }
 
+  /// Finds deepest places of triangles to rounding. Forces then change with the state without small
+  /// jumps, so that they can balance to any part.
+  void find_precisely() { records_.precise = true; }
+
   /// Sets the impulses of all obstacles and bodies to 0.
   void forget_impulse(const Exec& exec) const;
   /// Adds the last forces times `weight` [s] to the impulse of each obstacle and body.

@@ -10,6 +10,7 @@
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/elastic/fibres.hpp>
+#include <plica/kernels/materials/material.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/tet_gradients.hpp>
 
@@ -278,13 +279,42 @@ void fields_to_levels(Body& body) {
   }
 }
 
+FibreAxes family_components(const MaterialInfo& law, std::vector<double> values) {
+  TissueSettings s;
+  s.axis[0] = 1, s.axis[1] = 0, s.axis[2] = 0;
+  s.sheet[0] = 0, s.sheet[1] = 1, s.sheet[2] = 0;
+  const std::vector<double> settings = as_list(s);
+  std::ranges::copy(settings, values.end() - static_cast<std::ptrdiff_t>(settings.size()));
+  const std::vector<double> constants = law.kernel_constants(values);  // end with both directions
+  const double* const d = constants.data() + constants.size() - 6;
+  return {Point(d[0], d[1], d[2]), Point(d[3], d[4], d[5])};
+}
+
+namespace {
+
+/// Returns the directions that a law takes where fibre and sheet are `axes`.
+FibreAxes as_families(const FibreAxes& axes, const FibreAxes& components) {
+  if (components == FibreAxes{Point::UnitX(), Point::UnitY()}) return axes;
+  Eigen::Matrix3d basis;
+  basis << axes[0], axes[1], axes[0].cross(axes[1]);
+  return {basis * components[0], basis * components[1]};
+}
+
+}  // namespace
+
 template <class B>
-Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>& of_tets) {
+Scalars<B> device_fibres(const Patches<B>& patches, const TetMesh& mesh,
+                         const std::vector<FibreAxes>& of_tets,
+                         const std::vector<FibreAxes>& families) {
   const auto element = on_host(patches.element);
   std::vector<typename B::Real> all;
   for (std::size_t slot = 0; slot < element.extent(0); ++slot) {
-    const FibreAxes axes = element(slot) < 0 ? FibreAxes{Point::UnitX(), Point::UnitY()}
-                                             : of_tets[static_cast<std::size_t>(element(slot))];
+    FibreAxes axes{Point::UnitX(), Point::UnitY()};
+    if (element(slot) >= 0) {
+      const auto e = static_cast<std::size_t>(element(slot));
+      const auto r = static_cast<std::size_t>(mesh.region.empty() ? 0 : mesh.region[e]);
+      axes = as_families(of_tets[e], families[r]);
+    }
     for (const Point& a : axes)
       for (int k = 0; k < 3; ++k) all.push_back(static_cast<typename B::Real>(a[k]));
   }
@@ -293,7 +323,8 @@ Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>
 
 template <class B>
 Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
-                         const std::vector<FibreAxes>& of_tets) {
+                         const std::vector<FibreAxes>& of_tets,
+                         const std::vector<FibreAxes>& families) {
   // Sums of V a a^T, because opposite directions are the same fibre.
   struct Sum {
     Eigen::Matrix3d axis = Eigen::Matrix3d::Zero(), sheet = Eigen::Matrix3d::Zero();
@@ -319,10 +350,12 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
   for (int slot = 0; slot < rows.slots(); ++slot) {
     FibreAxes axes{Point::UnitX(), Point::UnitY()};
     if (vertex(slot) >= 0) {
-      const Sum& sum = sums.at({region(slot / NodalRows<B>::height), vertex(slot)});
+      const int in = region(slot / NodalRows<B>::height);
+      const Sum& sum = sums.at({in, vertex(slot)});
       const Point axis = main_direction(sum.axis);
       const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-      axes = orthonormal(axis, main_direction(across * sum.sheet * across));
+      axes = as_families(orthonormal(axis, main_direction(across * sum.sheet * across)),
+                         families[static_cast<std::size_t>(in)]);
     }
     for (const Point& a : axes)
       for (int k = 0; k < 3; ++k) all.push_back(static_cast<typename B::Real>(a[k]));
@@ -330,11 +363,13 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
   return to_device<Scalars<B>>("rows.fibres", all);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                      \
-  template Scalars<Backend<Real, Exec>> device_fibres(const Patches<Backend<Real, Exec>>&, \
-                                                      const std::vector<FibreAxes>&);      \
-  template Scalars<Backend<Real, Exec>> device_fibres(                                     \
-      const NodalRows<Backend<Real, Exec>>&, const TetMesh&, const std::vector<FibreAxes>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                       \
+  template Scalars<Backend<Real, Exec>> device_fibres(                                      \
+      const Patches<Backend<Real, Exec>>&, const TetMesh&, const std::vector<FibreAxes>&,   \
+      const std::vector<FibreAxes>&);                                                       \
+  template Scalars<Backend<Real, Exec>> device_fibres(                                      \
+      const NodalRows<Backend<Real, Exec>>&, const TetMesh&, const std::vector<FibreAxes>&, \
+      const std::vector<FibreAxes>&);
 PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <array>
 #include <plica/core/nodal_rows.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/elastic/materials.hpp>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ void flows_to_fields(Body& body, const std::string& field);
 /// tetrahedra. A level can then be used without level 0.
 void fields_to_levels(Body& body);
 
+/// Returns the two directions that a law's kernels take, by their components along fibre, sheet and
+/// the normal of both: [1, 0, 0] and [0, 1, 0], unless the law has families at an angle to the
+/// fibre.
+/// @param values  parameter_values() of a law with fibres
+FibreAxes family_components(const MaterialInfo& law, std::vector<double> values);
+
 /// Returns true where a body, or a region of it, has fibres.
 bool has_fibres(const Body& body);
 
@@ -44,11 +51,16 @@ bool has_fibres(const Body& body);
 bool fibres_vary(const Body& body);
 
 /// Copies the directions to the device, one pair for each element of the patches.
+/// @param of_tets   directions of fibres and sheet per tetrahedron
+/// @param families  per region: the two directions that the law takes, see family_components()
 template <class B>
-Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>& of_tets);
+Scalars<B> device_fibres(const Patches<B>& patches, const TetMesh& mesh,
+                         const std::vector<FibreAxes>& of_tets,
+                         const std::vector<FibreAxes>& families);
 /// Copies directions to the device, one pair for each domain: that nearest to its elements' fibres.
 template <class B>
 Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
-                         const std::vector<FibreAxes>& of_tets);
+                         const std::vector<FibreAxes>& of_tets,
+                         const std::vector<FibreAxes>& families);
 
 }  // namespace plica

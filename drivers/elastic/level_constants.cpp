@@ -84,7 +84,11 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
     c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
-  if (fibres_vary(body)) c.fibres = element_fibres(body, mesh, level);
+  if (fibres_vary(body)) {
+    c.fibres = element_fibres(body, mesh, level);
+    for (const std::vector<double>& values : values_of)
+      c.families.push_back(family_components(material, values));
+  }
   c.shape = shape_constants(body, material, c, values_of, std::move(prony));
   if (*std::max_element(c.stiffness_damping.begin(), c.stiffness_damping.end()) == 0)
     c.stiffness_damping.clear();

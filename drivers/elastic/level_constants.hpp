@@ -19,6 +19,7 @@ struct LevelConstants {
   ShapeConstants shape;            ///< parts of the elements' constants; only for viscous materials
   /// directions per tetrahedron; empty: they do not vary within a region
   std::vector<FibreAxes> fibres;
+  std::vector<FibreAxes> families;    ///< per region, see family_components(); only with `fibres`
   Element element = Element::linear;  ///< kind of elements of this level
   std::vector<double> density;        ///< per region [kg/m^3]
   /// per vertex [1/s]; one entry where it is the same everywhere

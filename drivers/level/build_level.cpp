@@ -61,12 +61,13 @@ void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants 
   using F = Backend<float, typename B::Exec>;
   if (beside == BesideNodal::nothing) return;
   model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
-  if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+  if (!c.fibres.empty())
+    model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
   if (beside == BesideNodal::matrix) return;
   constants.bulk_excess.clear();
   model.float_rows = build_nodal_rows<F>(placed, constants, c.constrained);
   if (!c.fibres.empty())
-    model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
+    model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres, c.families);
 }
 
 template <class B>
@@ -75,7 +76,8 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
-    if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+    if (!c.fibres.empty())
+      model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
     model.shares = model.patches.shares;
   } else {
     const bool smoothed = smooths_pressure(body, c.lame);
@@ -87,7 +89,8 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
     model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
-    if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
+    if (!c.fibres.empty())
+      model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres, c.families);
     add_preconditioning<B>(model, placed, std::move(constants), c, beside);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial",

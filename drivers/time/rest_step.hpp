@@ -6,6 +6,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/time/implicit_step.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plica {
@@ -25,6 +26,10 @@ namespace plica {
 ///
 /// Loads, given motions and obstacles are at the end of the load step in all stages; obstacles get
 /// there in the first. A load step that does not come to rest is not solved, see unsolved().
+///
+/// A stage knows where contact was when it began. Where a face gives way to a round tool, the place
+/// of contact moves along it, and the next stage goes back: further than the last one went where
+/// the tool presses much. So a stage may keep a part of its way, see damp().
 template <class B>
 class RestStep final : public ImplicitStep<B> {
   using Real = typename B::Real;
@@ -36,7 +41,11 @@ class RestStep final : public ImplicitStep<B> {
         edge_(parts.edge),
         critical_(parts.critical_step > 0 && std::isfinite(parts.critical_step)
                       ? parts.critical_step
-                      : 1e-6) {}
+                      : 1e-6) {
+    if (!parts.contact) return;
+    way_ = Vectors<B>("plica::rest.way", level.model.vertices);
+    last_way_ = Vectors<B>("plica::rest.last_way", level.model.vertices);
+  }
 
   void reset_history() override {
     length_ = 0;
@@ -53,11 +62,13 @@ class RestStep final : public ImplicitStep<B> {
   void name_fields(Archive<B>& archive) override {
     ImplicitStep<B>::name_fields(archive);
     archive.number(length_);
+    archive.owns(way_, last_way_);
   }
 
  protected:
   bool step(Level<B>& level, double time, double h) override {
-    end_ = time + h, worst_ = -1;
+    end_ = time + h, worst_ = -1, part_ = 0;
+    if (level.contact()) level.response().find_precisely();
     if (length_ == 0) length_ = first_length * critical_;
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0, failures = 0; k < most_stages && failures < most_failures; ++k) {
@@ -66,12 +77,16 @@ class RestStep final : public ImplicitStep<B> {
       const bool moved = k == 0 && level.prescribed.count > 0;
       if (!solved && (moved || length_ < critical_)) break;
       const double left = this->stages().unsolved(),
-                   way = level.contact() && !moved ? this->stages().farthest(level) / edge_ : 0;
+                   way =
+                       level.contact() && !moved
+                           ? this->stages().sums().farthest(level, this->stages().base().u) / edge_
+                           : 0;
       // without an equilibrium, what is not balanced does not become less
       const bool runs_away = k >= few_stages && way < near && !(left < progress * before);
       if (!solved || runs_away) ++failures;
       before = left;
       adapt(level, solved, way);
+      if (k == 0) part_ = 0;  // its way is mostly that of obstacles
     }
     find_worst(level);
     stop(level);
@@ -88,6 +103,8 @@ class RestStep final : public ImplicitStep<B> {
   static constexpr int most_stages = 60, most_failures = 10, few_stages = 3;
   // part of the forces that were not balanced, of which a stage leaves less
   static constexpr double progress = 0.9;
+  // least part of its way that a stage keeps
+  static constexpr double least_part = 0.05;
   // part of the load step in which obstacles stand still, in all stages but the first
   static constexpr double instant = 1e-9;
 
@@ -95,6 +112,8 @@ class RestStep final : public ImplicitStep<B> {
   double length_ = 0;  ///< length of the next stage [s]; 0: that of a first one
   double end_ = 0;     ///< end of the last load step [s]
   int worst_ = -1;
+  Vectors<B> way_, last_way_;  ///< ways of the vertices in a stage and in the last one [m]
+  double part_ = 0;  ///< part of its way that the last stage kept; 0: no stage to compare with
 
   /// Sets all velocities to 0.
   static void stop(const Level<B>& level) { fill(level.exec(), level.state.v, Real(0)); }
@@ -115,15 +134,40 @@ class RestStep final : public ImplicitStep<B> {
     StageSolver<B>& stages = this->stages();
     if (way > far) {  // the body would pass through what it has not found
       copy(level.exec(), level.state.u, stages.base().u);
-      length_ *= std::sqrt(near / way);
+      length_ *= std::sqrt(near / way), part_ = 0;
       return stages.forget_dilatations();
     }
-    if (level.contact()) level.response().end_stage(level.exec(), level, level.state);
+    if (level.contact()) {
+      if (solved) damp(level);
+      level.response().end_stage(level.exec(), level, level.state);
+    }
+    const double length = length_;
     if (!solved)
       length_ *= shrinks;
     else if (way < near)
       length_ = std::min(grows * length_, longest * critical_);
+    if (!solved || length_ != length) part_ = 0;
     if (solved) stages.forget_dilatations();
+  }
+
+  /// Takes back a part of the stage's way where stages go to and fro, by Aitken's rule for vectors:
+  /// between the starts of two stages, it goes to where their ways would be least if they changed
+  /// linearly (B. Irons, R. Tuck, Int. J. Numer. Methods Engrg. 1, 1969). It never goes further
+  /// than the stage.
+  void damp(Level<B>& level) {
+    const StageSums<B>& sums = this->stages().sums();
+    const Vectors<B>& u = level.state.u;
+    combine<B>(level.exec(), "plica::rest_way", 1, u, -1, this->stages().base().u, way_);
+    double part = 1;
+    if (part_ > 0) {
+      const double last = sums.product(level, last_way_, last_way_),
+                   both = sums.product(level, last_way_, way_),
+                   best =
+                       part_ * (last - both) / (last - 2 * both + sums.product(level, way_, way_));
+      if ((both < 0 || part_ < 1) && best > 0) part = std::clamp(best, least_part, 1.0);
+    }
+    if (part < 1) add<B>(level.exec(), "plica::rest_part", static_cast<Real>(part - 1), way_, u);
+    std::swap(way_, last_way_), part_ = part;
   }
 
   /// Finds the vertex with the largest force that is not balanced.

@@ -80,8 +80,8 @@ class StageSolver {
   bool began_at_rest() const { return at_rest_; }
   /// Computes the mixed dilatations of the next stage from the state that it starts from.
   void forget_dilatations() { fresh_ = 1; }
-  /// Returns the largest way of a vertex since the stage's start [m]. Waits for the device.
-  double farthest(const Level<B>& level) const { return sums_.farthest(level, base_.u); }
+  /// Returns the sums over a level, of any vertices' values.
+  const StageSums<B>& sums() const { return sums_; }
 
   /// Returns whether Newton's method may be used: then unsolved() tells which stages were not
   /// solved.

@@ -64,6 +64,12 @@ class StageSums {
                                             {from, level.state.u}, blocks_, result_);
     return std::sqrt(first(level));
   }
+  /// Returns the sum of the vertices' products x . y.
+  double product(const Level<B>& level, const Vectors<B>& x, const Vectors<B>& y) const {
+    reduce<B, 1>(level.exec(), "plica::stage_product", level.model.vertices, Dot<B>{x, y}, blocks_,
+                 result_);
+    return first(level);
+  }
   /// Returns the norm of gravity and all loads at the level's state [N]. `loads`: those of them
   /// that do not depend on the state; the others are added to it.
   double load_norm(const Level<B>& level, double time, const Vectors<B>& loads) const {

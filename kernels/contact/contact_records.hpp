@@ -187,6 +187,7 @@ struct ContactRecords {
   Real reach = 0;
   Real span = 0;            ///< duration of the step [s]
   bool long_steps = false;  ///< points look along the nearest normal, whatever their path meets
+  bool precise = false;     ///< deepest places of triangles are found to rounding, not to 1/1000
   Real edge = 0;            ///< mean edge of the surface [m]
   /// @{ shared by all levels
   /// Laws of obstacles and bodies, of grasped points, of pairs of bodies, of attachments

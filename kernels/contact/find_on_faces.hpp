@@ -58,7 +58,9 @@ struct FindOnFaces {
     const ObstaclePose pose = place.now();
     for (int c = 0; c < 3; ++c) x[c] = pose.local(x[c]);
     if (!(most(x) > enough)) return records.leave(r);
-    const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
+    const Vec3<Real> w = records.precise
+                             ? deepest_on_triangle<precise_cuts>(shape, x[0], x[1], x[2], size)
+                             : deepest_on_triangle(shape, x[0], x[1], x[2], size);
     const Vec3<Real> deepest_place = w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
     const Gap<Real> gap = shape(deepest_place);
     if (!(-gap.distance > enough)) return records.leave(r);

@@ -36,11 +36,13 @@ KOKKOS_INLINE_FUNCTION Vec3<Real> nearest_on_triangle(const Vec3<Real>& p, const
   return {1 - v - w, v, w};
 }
 
-/// Returns the place in [0, 1] where a convex function is least, to 1/1000, by golden section.
-template <class Real, class F>
+/// Cuts of a golden section that finds a place to 1/1000, and to the rounding of double.
+constexpr int rough_cuts = 14, precise_cuts = 36;
+
+/// Returns the place in [0, 1] where a convex function is least, by golden section.
+template <class Real, int cuts, class F>
 KOKKOS_INLINE_FUNCTION Real least_on_unit(const F& f) {
   constexpr Real part = Real(0.6180339887498949);
-  constexpr int cuts = 14;
   Real low = 0, high = 1, left = 1 - part, right = part, at_left = f(left), at_right = f(right);
   for (int n = 0; n < cuts; ++n) {
     if (at_left <= at_right) {
@@ -58,8 +60,8 @@ KOKKOS_INLINE_FUNCTION Real least_on_unit(const F& f) {
 /// golden sections. The distance to such a solid is convex, if not smooth. Where the distance is
 /// constant, the place is the triangle's middle. After Macklin, Erleben, Mueller, Chentanez,
 /// Jeschke, Corse: Local optimization for robust signed distance field collision (2020). The number
-/// of distances is fixed: 288. `size` of the triangle [m].
-template <class Real, class Shape>
+/// of distances is fixed: 288 for rough_cuts. `size` of the triangle [m].
+template <int cuts = rough_cuts, class Real, class Shape>
 KOKKOS_INLINE_FUNCTION Vec3<Real> deepest_on_triangle(const Shape& shape, const Vec3<Real>& a,
                                                       const Vec3<Real>& b, const Vec3<Real>& c,
                                                       Real size) {
@@ -69,8 +71,10 @@ KOKKOS_INLINE_FUNCTION Vec3<Real> deepest_on_triangle(const Shape& shape, const 
     const Vec3<Real> x = a + s * ((b - a) + q * (c - b)), d = x - middle;
     return shape(x).distance + lean / size * dot(d, d);
   };
-  const auto across = [&](Real s) { return least_on_unit<Real>([&](Real q) { return at(s, q); }); };
-  const Real s = least_on_unit<Real>([&](Real t) { return at(t, across(t)); }), q = across(s);
+  const auto across = [&](Real s) {
+    return least_on_unit<Real, cuts>([&](Real q) { return at(s, q); });
+  };
+  const Real s = least_on_unit<Real, cuts>([&](Real t) { return at(t, across(t)); }), q = across(s);
   return {1 - s, s * (1 - q), s * q};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 
 // Exact solutions of thick walls under pressure, to compare elements with.
@@ -41,6 +42,12 @@ RadialState inflated(const RadialWall& wall, double growth);
 /// @param bulk   kappa [Pa]
 inline Radial with_volume(const Radial& pulls, double J, double bulk) {
   return (pulls.array() - pulls.mean()).matrix() / J + Radial::Constant(bulk / 2 * (J - 1 / J));
+}
+
+/// Returns Cauchy's stress of neo-Hookean tissue.
+inline Radial neo_hookean_stress(const Radial& stretches, double mu, double bulk) {
+  const double J = stretches.prod();
+  return with_volume(mu * std::pow(J, -2.0 / 3) * stretches.cwiseAbs2(), J, bulk);
 }
 
 }  // namespace plica

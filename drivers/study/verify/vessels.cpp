@@ -34,11 +34,7 @@ Wall neo_hookean() {
   const Lame<double> c = lame_constants(young_modulus, poisson_ratio);
   return {"neo-Hookean, nu 0.45",
           {"neo_hookean", young_modulus, poisson_ratio, 1000},
-          [=](const Radial& l) {
-            const double J = l.prod();
-            return with_volume(c.mu * std::pow(J, -2.0 / 3) * l.cwiseAbs2(), J,
-                               c.lambda + 2 * c.mu / 3);
-          }};
+          [=](const Radial& l) { return neo_hookean_stress(l, c.mu, c.lambda + 2 * c.mu / 3); }};
 }
 
 /// Returns a wall with two families of fibres at 29 degrees from the hoop.

@@ -26,33 +26,36 @@ TEST(Fibres, WindRoundALine) {
   EXPECT_NEAR(fibre_axes({.around = winding}, {1, 0, 5})[0].norm(), 1, 1e-12) << "on the line";
 }
 
-Problem fibrous(const std::string& element, const FibreOptions& fibres) {
-  Problem p = body_of({jittered_box(decimetre, {3, 3, 3})}, "costa");
+Problem fibrous(const std::string& element, const FibreOptions& fibres,
+                const std::string& law = "costa") {
+  Problem p = body_of({jittered_box(decimetre, {3, 3, 3})}, law);
   p.body.element = {element}, p.body.material.fibres = fibres;
   return p;
 }
 
 TEST(Fibres, OfElementsAreThoseOfTheBodyWhereTheyAreAlike) {
   const FibreOptions same{{2, 2, 1}, Point(-2, 1, 2)};
-  for (const char* element : {"linear", "nodal"}) {
-    Problem p = fibrous(element, {.field = "f", .sheet_field = "s"});
-    TetMesh& mesh = p.body.levels[0];
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {  // of any length and sign
-      mesh.tet_vectors["f"].push_back((t % 2 == 0 ? 1 : -3) * same.axis);
-      mesh.tet_vectors["s"].push_back((t % 3 == 0 ? 1 : -0.1) * *same.sheet);
+  for (const char* law : {"costa", "transversely_isotropic", "holzapfel_gasser_ogden"})
+    for (const char* element : {"linear", "nodal"}) {
+      Problem p = fibrous(element, {.field = "f", .sheet_field = "s"}, law);
+      TetMesh& mesh = p.body.levels[0];
+      for (std::size_t t = 0; t < mesh.tets.size(); ++t) {  // of any length and sign
+        mesh.tet_vectors["f"].push_back((t % 2 == 0 ? 1 : -3) * same.axis);
+        mesh.tet_vectors["s"].push_back((t % 3 == 0 ? 1 : -0.1) * *same.sheet);
+      }
+      LevelProbe<Host> one(fibrous(element, same, law)), each(p);
+      const auto u = random_field(one.vertices(), 4e-3, 3),
+                 d = random_field(one.vertices(), 1e-3, 4);
+      const auto near = [&](const std::vector<Point>& a, const std::vector<Point>& b) {
+        double size = 0;
+        for (const Point& f : a) size = std::max(size, f.norm());
+        for (std::size_t i = 0; i < a.size(); ++i)
+          EXPECT_LE((a[i] - b[i]).norm(), 1e-12 * size) << law << ", " << element;
+      };
+      near(one.force(u), each.force(u));
+      near(one.stiffness(u, d), each.stiffness(u, d));
+      EXPECT_NEAR(one.elastic_energy(u), each.elastic_energy(u), 1e-12 * one.elastic_energy(u));
     }
-    LevelProbe<Host> one(fibrous(element, same)), each(p);
-    const auto u = random_field(one.vertices(), 4e-3, 3), d = random_field(one.vertices(), 1e-3, 4);
-    const auto near = [&](const std::vector<Point>& a, const std::vector<Point>& b) {
-      double size = 0;
-      for (const Point& f : a) size = std::max(size, f.norm());
-      for (std::size_t i = 0; i < a.size(); ++i)
-        EXPECT_LE((a[i] - b[i]).norm(), 1e-12 * size) << element;
-    };
-    near(one.force(u), each.force(u));
-    near(one.stiffness(u, d), each.stiffness(u, d));
-    EXPECT_NEAR(one.elastic_energy(u), each.elastic_energy(u), 1e-12 * one.elastic_energy(u));
-  }
 }
 
 // Turned by a quarter about its line, a wound body is the same body

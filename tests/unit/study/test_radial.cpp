@@ -14,10 +14,7 @@ constexpr double mu = 1000;  // [Pa]
 
 /// Neo-Hookean wall with radii of 1 and 2 m.
 RadialWall neo_hookean_wall(bool ball, double bulk) {
-  return {1, 2, ball, 1, [=](const Radial& l) {
-            const double J = l.prod();
-            return with_volume(mu * std::pow(J, -2.0 / 3) * l.cwiseAbs2(), J, bulk);
-          }};
+  return {1, 2, ball, 1, [=](const Radial& l) { return neo_hookean_stress(l, mu, bulk); }};
 }
 
 TEST(RadialWalls, BallIsTheIncompressibleOneInItsLimit) {

@@ -207,6 +207,33 @@ TEST(Rest, IsPressedByAnObstacleThatMoves) {
   EXPECT_LT(force, 0.2 * E * 0.01);
 }
 
+// A sphere touches faces between their corners. The place of contact moves along a face that gives
+// way, so that stages without damping go to and fro. The force is near Hertz's, for a block that is
+// not much larger than the sphere.
+TEST(Rest, IsPressedByASphereBetweenPoints) {
+  const double radius = 0.03, depth = 0.02, E = 10e3, nu = 0.45;
+  Problem p = body_of({box_mesh(decimetre, {4, 4, 4})}, "neo_hookean");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.body.element = {"nodal"};
+  p.body.material.young_modulus = E, p.body.material.poisson_ratio = nu;
+  p.body.fixed = {Box{{-1, -1, 0}, {1, 1, 0}}};
+  p.contact.obstacles.push_back(
+      {SphereOptions{{0.056, 0.047, 0.101 + radius}, radius},
+       {},
+       PathMotion{{{0, Point::Zero()}, {1, Point(0, 0, -0.001 - depth)}}}});
+  Simulation<Host> simulation(at_rest(p, 1e-5));
+  double last = 0;
+  for (int step = 0; step < 10; ++step) {
+    advance(simulation, 1);
+    const double force = -simulation.wrenches()[0].force[2];
+    EXPECT_GT(force, last) << step;
+    last = force;
+  }
+  EXPECT_LE(simulation.worst_residual(), 1e-5);
+  const double hertz = 4 * E / (3 * (1 - nu * nu)) * std::sqrt(radius) * std::pow(depth, 1.5);
+  EXPECT_NEAR(last, hertz, 0.25 * hertz);
+}
+
 // Relaxed stress is that of a softer shape and the same volume.
 TEST(Rest, IsThatOfTheRelaxedMaterial) {
   Problem p = hanging_beam("linear", 0.3);
