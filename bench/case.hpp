@@ -13,9 +13,16 @@ struct Case {
   Cells cells;
 };
 
+/// Sizes of the body; on a device one more, which fills it.
+inline std::vector<Cells> body_sizes() {
+  std::vector<Cells> sizes{small_beam, medium_beam};
+  if (!Backend<float, Kokkos::DefaultExecutionSpace>::on_host) sizes.push_back(large_beam);
+  return sizes;
+}
+
 /// f.operator()<Backend, Material>(case) for every material of the list, precision and size.
 template <class Materials, class F>
-void for_each_case(const F& f, const std::vector<Cells>& sizes = {small_beam, medium_beam}) {
+void for_each_case(const F& f, const std::vector<Cells>& sizes = body_sizes()) {
   using Exec = Kokkos::DefaultExecutionSpace;
   for (const Cells& cells : sizes)
     Materials::for_each([&](auto material) {

@@ -10,6 +10,7 @@
 
 #include "beam.hpp"
 #include "case.hpp"
+#include "compulsory.hpp"
 #include "counted.hpp"
 #include "measure.hpp"
 #include "suites.hpp"
@@ -35,23 +36,6 @@ struct BentBeam {
     level.state.u = direction = to_field<B>(bent(mesh, 0.1 / cells[0]));
   }
 };
-
-template <class... Views>
-double bytes_of(const Views&... views) {
-  return static_cast<double>((fields::bytes_of(views) + ...));
-}
-
-/// Compulsory bytes, each array once: per tetrahedron its corners and shape, or per pair of
-/// neighbours their constants; per vertex `numbers` of the precision.
-template <class B>
-double compulsory_bytes(const Model<B>& model, int numbers) {
-  constexpr double s = sizeof(typename B::Real);
-  if (const NodalRows<B>& rows = model.rows; rows.slices > 0)
-    return bytes_of(rows.first, rows.neighbour, rows.gradient, rows.coupling, rows.first_surface,
-                    rows.surface_neighbour, rows.surface_gradient, rows.inverse_volume) +
-           model.vertices * (numbers * s);
-  return model.tets * (4 * sizeof(std::uint16_t) + 10 * s) + model.vertices * (numbers * s);
-}
 
 template <class B>
 BentBeam<B>& bent_beam(const Case& c, Element element) {

@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
   plica::bench::register_kernels();
   plica::bench::register_steps();
   plica::bench::register_levels();
+  plica::bench::register_scale();
+  plica::bench::register_growth();
 #endif
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -9,6 +9,8 @@ void register_kernels();  ///< force/, tangent/<material>/<precision>/<tets>
 /// explicit_step/, implicit_step/, assembly/, block_product/, cg_iteration/<material>/...
 void register_steps();
 void register_levels();   ///< transfer/, contact/, cycle/, set_up/
+void register_growth();   ///< growth/<element>/<tets>: an explicit step, in double
+void register_scale();    ///< scale/<steps>/<precision>/<tets>: macro steps, larger on a device
 void register_layouts();  ///< layout/<layout>/<material>/<precision>/<tets>: in plica_bench_layouts
 
 }  // namespace plica::bench

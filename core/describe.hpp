@@ -58,7 +58,7 @@ void describe(V& v, Selection& o) {
 /// optional.
 template <class V, class Options>
 void describe_constants(V& v, Options& o) {
-  v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "stiffness E");
+  v("young_modulus", o.young_modulus, Quantity{pressure, stiffness}, "stiffness E");
   v("poisson_ratio", o.poisson_ratio, Quantity{plain, {.min = 0, .max = 0.5, .max_excluded = true}},
     "lateral contraction nu; close to 0.5 linear tetrahedra are too stiff");
   v("density", o.density, Quantity{density, positive}, "mass per volume at rest");
@@ -423,7 +423,22 @@ void describe(V& v, IntegrationOptions& o) {
     "of a macro step: halved, and longer again once it is calm");
 }
 
-/// Describes a problem without the body, its integration and contact.
+template <class V>
+void describe(V& v, BladeOptions& o) {
+  v.required("segment", o.segment, ListOf<Vector>{{length}},
+             "both ends of its straight edge, at the start");
+  v.one_of();
+  describe(v, o.motion);
+}
+
+template <class V>
+void describe(V& v, CutOptions& o) {
+  v.required("blade", o.blade, Group{}, "a straight edge that cuts what it sweeps");
+  v("from", o.from, Quantity{duration, not_negative}, "when it begins to cut");
+  v.required("to", o.to, Quantity{duration, positive}, "when it ends");
+}
+
+/// Describes a problem without the body, its integration, contact and cuts.
 template <class V>
 void describe(V& v, Problem& o) {
   v("preset", o, PresetName{"preset", presets},

@@ -92,6 +92,8 @@ struct Bounds {
 };
 inline constexpr Bounds any_value{};
 inline constexpr Bounds positive{.min = 0, .min_excluded = true};
+/// Stiffness of a material [Pa]: from far below foam's to far above diamond's.
+inline constexpr Bounds stiffness{.min = 1e-6, .max = 1e15};
 inline constexpr Bounds not_negative{.min = 0};
 inline constexpr Bounds zero_to_one{.min = 0, .max = 1};
 /// Range [0, 1)

@@ -16,6 +16,16 @@ struct Box {
   Point max = Point::Zero();  ///< highest corner [m]
 };
 
+/// Vertices that follow tetrahedra of the same mesh, at the border between a finer piece and a
+/// coarser one. Each is where its masters put it: x = sum_k weight_k x_of_k. It has no motion of
+/// its own. No master follows another vertex.
+struct Followers {
+  std::vector<int> vertex;             ///< vertices that follow, ascending
+  std::vector<std::array<int, 4>> of;  ///< masters: the free vertices of a tetrahedron
+  /// Barycentric weights in that tetrahedron at rest, with the sum 1; below 0 outside it
+  std::vector<std::array<double, 4>> weight;
+};
+
 /// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver
 /// every tetrahedron with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and
 /// every vertex used.
@@ -34,16 +44,30 @@ struct TetMesh {
   /// Named triangles by their vertices, in any orientation; the set of vertices of that name has
   /// at least those of the triangles
   std::map<std::string, std::vector<std::array<int, 3>>> triangle_sets = {};
+  /// Number of the piece of each tet, 0 the finest; empty: one piece. Pieces have no vertex in
+  /// common and share room where a tet is filled in part, see compose()
+  std::vector<int> piece = {};
+  /// Vertices of borders between pieces, which follow the coarser one
+  Followers followers = {};
+  /// Faces of one tetrahedron that are no boundary of the body, as at borders between pieces: each
+  /// by its ascending vertices, all ascending
+  std::vector<std::array<int, 3>> inner_faces = {};
 
   /// Returns the part of a tetrahedron that is body. Its mass, stiffness and energy are this part
   /// of what its volume would have.
   double part(std::size_t tet) const { return filled.empty() ? 1 : filled[tet]; }
 };
 
+/// Texture coordinates u and v at the corners of a triangle.
+using CornerTexture = std::array<std::array<double, 2>, 3>;
+
 /// A triangulated surface, on the host.
 struct TriangleSurface {
   std::vector<Point> vertices;                ///< [m]
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
+  /// Texture coordinates of each triangle's corners; empty: none. At a seam of the texture, corners
+  /// at one vertex differ.
+  std::vector<CornerTexture> texture = {};
 };
 
 /// Returns a sixth of the determinant of the edges from vertex `a`: the volume [m^3].

@@ -3,6 +3,7 @@
 #include <plica/core/fields.hpp>
 #include <plica/core/nodal_rows.hpp>
 #include <plica/core/patches.hpp>
+#include <plica/core/transfer.hpp>
 
 namespace plica {
 
@@ -27,6 +28,21 @@ struct VertexModel {
   VertexShares<B> shares;
 };
 
+/// Vertices that follow tetrahedra of a coarser piece of the mesh, see Followers; none: no arrays.
+/// With T the rows of `place`, u = T y gives the motion of all vertices from that of the free ones,
+/// y. Forces on y are T^T f, and followers have no mass.
+template <class B>
+struct FollowingVertices {
+  Transfer<B> place;    ///< a row per follower: its value from those of its masters
+  int masters = 0;      ///< number of vertices that others follow
+  Indices<B> master;    ///< [masters]
+  Indices<B> first;     ///< [masters + 1] into follower and weight
+  Indices<B> follower;  ///< a vertex that follows the master, ascending for each
+  Scalars<B> weight;    ///< weight of the master in that vertex
+
+  bool any() const { return place.rows > 0; }
+};
+
 /// Constants of one level. Kernels take the parts that they read, because the whole takes long to
 /// copy.
 template <class B>
@@ -39,6 +55,7 @@ struct Model : VertexModel<B> {
   NodalRows<B> rows;  ///< rows of nodal elements
   /// Rows of nodal elements for a preconditioner, in float; no pressures are smoothed
   NodalRows<Backend<float, typename B::Exec>> float_rows;
+  FollowingVertices<B> followers;
 };
 
 /// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].

@@ -13,6 +13,9 @@ struct VertexShares {
   int rows = 0;
   Indices<B> first;  ///< [vertices + 1]
   Indices<B> row;
+  /// [places in `row`] part of a row that the vertex takes. Where vertices follow others, their
+  /// rows are also among those of their masters, see FollowingVertices. Empty: 1 everywhere
+  Scalars<B> weight = {};
 };
 
 /// The tetrahedra of one mesh, cut into patches of neighbours. Patches are small enough that their

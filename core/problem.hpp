@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <plica/core/cuts.hpp>
 #include <plica/core/load.hpp>
 #include <plica/core/obstacles.hpp>
 #include <string>
@@ -195,6 +196,17 @@ struct BodyPart {
   std::optional<std::vector<int>> coarsen = {};
 };
 
+/// A part of the body that a level covers; elsewhere the next coarser level counts.
+struct LevelCover {
+  /// Elements that are taken, by their centroids: of its mesh, which then is one of the whole body,
+  /// or where `refined` is true of the next coarser level's. None: all of its mesh
+  std::optional<Selection> where = {};
+  /// True: the level has no mesh. It has the elements of the next coarser one, each cut in eight
+  bool refined = false;
+  /// Set of vertices or triangles of its mesh that is its border inside the body; empty: found
+  std::string border = {};
+};
+
 /// A deformable body.
 struct Body {
   /// Constructors and copies, compiled in problem.cpp alone.
@@ -208,6 +220,10 @@ struct Body {
   /// @}
 
   std::vector<TetMesh> levels;  ///< finest first, at least one
+  /// Levels that cover a part of the body, by their numbers; not the last one. They and the next
+  /// level that covers the whole make one level, see compose_levels(): numbers of levels in other
+  /// options are those after that
+  std::map<std::size_t, LevelCover> covers = {};
   /// Numbers of points of coarse spaces that are made of the last mesh, finest first. They are for
   /// methods that need coarse levels but no coarse elements (him, multigrid). Empty: as many as it
   /// takes. None: as many as it takes, where a method needs them
@@ -225,6 +241,9 @@ struct Body {
   InitialOptions initial;                        ///< state at t = 0
   /// Surface that is embedded in every level; contact acts on its vertices
   std::optional<TriangleSurface> surface;
+  /// Vertex of level 0 at each of the surface's points, or at each point of the boundary where
+  /// there is no surface, after a cut; empty: there was none, and points are found by their places
+  std::vector<int> surface_vertex = {};
   std::vector<BodyPart> parts = {};  ///< bodies, where there are several; empty: one
 };
 
@@ -384,10 +403,11 @@ struct Problem {
 
   /// Name of the preset that these options came from; see presets()
   std::string preset = {};
-  Body body;                       ///< body that moves
-  Point gravity = Point::Zero();   ///< [m/s^2]
-  IntegrationOptions integration;  ///< integration in time
-  ContactOptions contact;          ///< contact with obstacles and between bodies
+  Body body;                          ///< body that moves
+  Point gravity = Point::Zero();      ///< [m/s^2]
+  IntegrationOptions integration;     ///< integration in time
+  ContactOptions contact;             ///< contact with obstacles and between bodies
+  std::vector<CutOptions> cuts = {};  ///< cuts of the body while the run goes on
   /// True where the caller will put forces of its own on the surface; it is then embedded in every
   /// level
   bool surface_forces = false;

@@ -31,7 +31,17 @@ enum class LevelKind {
   mesh,     ///< tetrahedra
   lattice,  ///< tetrahedra that the body fills in part
   space,    ///< motions of the finest mesh, without elements
-  slivers   ///< space in which only the vertices of slivers follow others
+  slivers,  ///< space in which only the vertices of slivers follow others
+  part      ///< tetrahedra of a finer mesh in a part of the body and of coarser ones elsewhere
+};
+
+/// A piece of a level of kind `part`: its share of one of the meshes, see TetMesh::piece.
+struct PieceReport {
+  int tets = 0;             ///< tetrahedra
+  int followers = 0;        ///< vertices that follow a coarser piece
+  int cut = 0;              ///< tetrahedra that count in part, since a finer piece covers the rest
+  double mass = 0;          ///< mass that is not covered by finer pieces [kg]
+  double least_filled = 1;  ///< smallest part of a tetrahedron that counts
 };
 
 /// Decisions for one level.
@@ -40,6 +50,7 @@ struct LevelReport {
   int vertices = 0;                  ///< vertices of its mesh; points of a coarse space
   int tets = 0;                      ///< tetrahedra of its mesh; a coarse space has none
   double filled = 1;                 ///< part of its volume that is body
+  std::vector<PieceReport> pieces;   ///< finest first, of a level of kind `part`
   /// Weights per row of the interpolation to the next finer level, for a coarse space
   double nonzeros = 0;
   double mean_edge = 0;  ///< [m]
@@ -146,6 +157,14 @@ struct Diagnosis {
   std::string reason;        ///< details in words, such as those of a solver
   std::string remedy;        ///< remedy that is most likely to help
   std::string text() const;  ///< returns one sentence with all of it
+};
+
+/// Outcome of a cut, or of all cuts of a simulation so far.
+struct CutReport {
+  int opened_faces = 0;  ///< number of faces between tetrahedra that have opened
+  int new_vertices = 0;  ///< number of vertices that are new where others have split
+  int pieces = 1;        ///< number of pieces of the body, which share no vertex
+  double seconds = 0;    ///< wall time of the cut [s]
 };
 
 /// Snapshot of what a simulation carries from one macro step to the next. Only Simulation reads its

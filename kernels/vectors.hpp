@@ -100,10 +100,17 @@ KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B
 ///   patch 0 |. . x . .|  patch 1 |. x . .|  patch 2 |. . . x|      partial
 ///                 \______________  |  ___________________/
 ///                                  a                               start + x + x + x
+///
+/// A vertex that others follow adds their sums, too, each times its weight.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B>& shares,
                                                             const Vectors<B>& partial, int a,
                                                             Vec3<typename B::Real> start = {}) {
+  if (shares.weight.extent(0) > 0) {
+    for (int s = shares.first(a); s < shares.first(a + 1); ++s)
+      start += shares.weight(s) * vector_at<B>(partial, shares.row(s));
+    return start;
+  }
   for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
     const int i = shares.row(s);
     for (int k = 0; k < 3; ++k) start[k] += partial(i, k);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <span>
 #include <utility>
@@ -94,6 +95,11 @@ std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh) {
     const auto& [i, j, k] = outward_faces[number % 4];
     triangles.push_back({tet[i], tet[j], tet[k]});
   }
+  if (!mesh.inner_faces.empty())
+    std::erase_if(triangles, [&](std::array<int, 3> triangle) {
+      std::sort(triangle.begin(), triangle.end());
+      return std::binary_search(mesh.inner_faces.begin(), mesh.inner_faces.end(), triangle);
+    });
   return triangles;
 }
 
@@ -131,6 +137,23 @@ std::vector<double> areas_of_points(const TriangleSurface& surface) {
     for (const int v : t) area[static_cast<std::size_t>(v)] += part;
   }
   return area;
+}
+
+std::vector<Point> normals_of_points(const TriangleSurface& surface) {
+  std::vector<Point> normals(surface.vertices.size(), Point(Point::Zero()));
+  for (const auto& t : surface.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point& p = vertex(surface, t[k]);
+      const Point one = vertex(surface, t[(k + 1) % 3]) - p;
+      const Point other = vertex(surface, t[(k + 2) % 3]) - p;
+      const Point normal = one.cross(other);
+      if (const double length = normal.norm(); length > 0)
+        normals[static_cast<std::size_t>(t[k])] +=
+            std::atan2(length, one.dot(other)) / length * normal;
+    }
+  for (Point& normal : normals)
+    if (const double length = normal.norm(); length > 0) normal /= length;
+  return normals;
 }
 
 double enclosed_volume(const TriangleSurface& surface) {

@@ -15,7 +15,8 @@ namespace plica {
 std::vector<std::size_t> overlap_at_a_face(const TetMesh& mesh);
 
 /// Returns the faces that belong to one tetrahedron only, as vertex numbers of the mesh. They are
-/// counter-clockwise seen from outside, in the order of the tetrahedra.
+/// counter-clockwise seen from outside, in the order of the tetrahedra. TetMesh::inner_faces are
+/// left out.
 std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh);
 
 /// Boundary of a mesh as a surface with vertex numbers of its own.
@@ -31,6 +32,12 @@ double surface_area(const TriangleSurface& surface);
 
 /// Returns each point's part of the area: a third of every triangle around it [m^2].
 std::vector<double> areas_of_points(const TriangleSurface& surface);
+
+/// Returns the unit normal at each point: the mean of the normals of the triangles around it,
+/// weighted by their angles there. It looks outwards; it is 0 where all these triangles are flat.
+/// Source: G. Thuermer, C. A. Wuethrich, Computing vertex normals from polygonal facets, Journal of
+/// Graphics Tools 3(1), 43-46 (1998)
+std::vector<Point> normals_of_points(const TriangleSurface& surface);
 
 /// Returns the volume that a closed surface encloses [m^3]. It is above zero when the triangles
 /// look outwards.

@@ -66,6 +66,7 @@ int close_slits(TriangleSurface& surface, double width) {
       surface.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], centre});
     surface.vertices.push_back(middle);
   }
+  if (!surface.texture.empty()) surface.texture.resize(surface.triangles.size());
   return closed;
 }
 

@@ -11,10 +11,8 @@
 
 namespace plica {
 
-namespace {
-
-// Returns the weights of the nearest point of a triangle. Names: ab_p is the dot product of edge ab
-// with the vector from a to p; q and r stand for p relative to b and c.
+// Names: ab_p is the dot product of edge ab with the vector from a to p; q and r stand for p
+// relative to b and c.
 std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b,
                                           const Point& c) {
   const Point ab = b - a, ac = c - a;
@@ -43,8 +41,6 @@ std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const 
                w = over_ab / (over_ab + over_ac + over_bc);
   return {1.0 - v - w, v, w};
 }
-
-}  // namespace
 
 Weights barycentric(const Point& p, const std::array<Point, 4>& corners) {
   const Point a = corners[1] - corners[0], b = corners[2] - corners[0], c = corners[3] - corners[0];
@@ -112,18 +108,22 @@ double smallest(const Weights& weights) {
 }
 
 // Visitor that keeps the tetrahedron whose smallest weight is the largest. The search ends when
-// this weight is not negative.
+// this weight is not negative. Of pieces that share room the finest counts.
 struct Containing {
   const TetMesh& mesh;
   const Point& p;
   double depth = -inside_tolerance;
   Located found = {};
+  int piece = std::numeric_limits<int>::max();
 
   bool intersectVolume(const Volume& box) const { return box.contains(p); }
   bool intersectObject(int tet) {
     const Weights weights = barycentric(p, corners_of(mesh, tet));
-    if (const double d = smallest(weights); d >= depth) depth = d, found = {tet, weights, 0.0};
-    return depth >= 0.0;
+    const double d = smallest(weights);
+    const int own = mesh.piece.empty() ? 0 : mesh.piece[static_cast<std::size_t>(tet)];
+    if (own < piece ? d >= -inside_tolerance : own == piece && d >= depth)
+      depth = d, piece = own, found = {tet, weights, 0.0};
+    return depth >= 0.0 && piece == 0;
   }
 };
 
@@ -131,6 +131,21 @@ double squared_distance(const Point& p, const TetMesh& mesh, int tet) {
   const auto corners = corners_of(mesh, tet);
   return (weighted(nearest_inside(p, corners), corners) - p).squaredNorm();
 }
+
+// Visitor that lists the tetrahedra whose boxes meet a box
+struct MeetingBox {
+  const TetMesh& mesh;
+  Volume box;
+  std::vector<int> found = {};
+
+  bool intersectVolume(const Volume& of_some) const { return of_some.intersects(box); }
+  bool intersectObject(int tet) {
+    Volume own;
+    for (const Point& corner : corners_of(mesh, tet)) own.extend(corner);
+    if (own.intersects(box)) found.push_back(tet);
+    return false;
+  }
+};
 
 struct Nearest {
   using Scalar = double;
@@ -203,6 +218,13 @@ Located TetLocator::locate(const Point& point) const {
   if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet))
     found.distance = 0.0;
   return found;
+}
+
+std::vector<int> TetLocator::tets_near(const Box& box) const {
+  MeetingBox meeting{*mesh_, Volume(box.min, box.max)};
+  Eigen::BVIntersect(*tree_, meeting);
+  std::ranges::sort(meeting.found);
+  return std::move(meeting.found);
 }
 
 namespace {

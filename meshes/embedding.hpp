@@ -22,6 +22,10 @@ bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x);
 /// Collision Detection (2005), section 5.1.5.
 Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners);
 
+/// Returns the weights of the point of a triangle that is nearest to `p`.
+std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b,
+                                          const Point& c);
+
 /// Returns the point with these weights [m].
 Point weighted(const Weights& weights, const std::array<Point, 4>& corners);
 
@@ -41,6 +45,7 @@ struct Located {
 /// A point counts as inside up to 1e-9 of an edge beyond a face. Several tetrahedra are nearest to
 /// a point that faces an edge or a corner. Among them the one with the least extrapolation is
 /// chosen, then the one with the lowest number. The choice thus never depends on the tree's order.
+/// Where pieces of a mesh share room (TetMesh::piece), a point is in the finest of them.
 class TetLocator {
  public:
   /// Keeps a reference to `mesh`, which must have a tetrahedron (InputError) and outlive the
@@ -53,6 +58,9 @@ class TetLocator {
 
   /// Returns the location of a point; throws an InputError if it is not finite or beyond 1e100 m.
   Located locate(const Point& point) const;
+
+  /// Returns the tetrahedra whose bounding boxes meet a box, ascending.
+  std::vector<int> tets_near(const Box& box) const;
 
   /// Returns the mesh that points are located in.
   const TetMesh& mesh() const { return *mesh_; }

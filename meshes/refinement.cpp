@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <plica/core/error.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
@@ -160,7 +161,11 @@ double volume(const TetMesh& mesh) {
 
 }  // namespace
 
-TetMesh refined(const TetMesh& mesh) { return Refinement(mesh).made(); }
+TetMesh refined(const TetMesh& mesh) {
+  if (!mesh.piece.empty())
+    throw InputError("a mesh with a part that is finer cannot be made finer as a whole");
+  return Refinement(mesh).made();
+}
 
 bool is_refinement_of(const TetMesh& fine, const TetMesh& coarse) {
   if (fine.tets.size() != 8 * coarse.tets.size()) return false;

@@ -17,7 +17,7 @@ namespace plica {
 /// boundary keeps its shape: middles are not moved onto a curved surface.
 ///
 /// @return  8 times the tetrahedra, each with 1/8 of the volume; InputError where a count does not
-/// fit an int
+/// fit an int, or for a mesh of several pieces
 TetMesh refined(const TetMesh& mesh);
 
 /// Returns whether `fine` is a mesh twice as fine of the body `coarse`. It must have eight times

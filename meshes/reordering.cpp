@@ -52,6 +52,23 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return back;
 }
 
+Followers renumbered(const Followers& followers, const std::vector<int>& new_number) {
+  const auto number_of = [&](int v) { return new_number[static_cast<std::size_t>(v)]; };
+  std::vector<std::size_t> place(followers.vertex.size());
+  std::iota(place.begin(), place.end(), std::size_t{0});
+  std::sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
+    return number_of(followers.vertex[a]) < number_of(followers.vertex[b]);
+  });
+  Followers result;
+  for (const std::size_t i : place) {
+    result.vertex.push_back(number_of(followers.vertex[i]));
+    result.weight.push_back(followers.weight[i]);
+    auto& masters = result.of.emplace_back(followers.of[i]);
+    for (int& v : masters) v = number_of(v);
+  }
+  return result;
+}
+
 }  // namespace
 
 Reordering locality_order(const TetMesh& mesh) {
@@ -107,6 +124,14 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   for (auto& [name, set] : result.triangle_sets)
     for (auto& triangle : set)
       for (int& v : triangle) v = new_number[static_cast<std::size_t>(v)];
+  result.piece = permuted(mesh.piece, order.tets);
+  result.inner_faces = mesh.inner_faces;
+  for (auto& face : result.inner_faces) {
+    for (int& v : face) v = new_number[static_cast<std::size_t>(v)];
+    std::sort(face.begin(), face.end());
+  }
+  std::sort(result.inner_faces.begin(), result.inner_faces.end());
+  result.followers = renumbered(mesh.followers, new_number);
   return result;
 }
 

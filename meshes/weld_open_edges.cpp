@@ -59,10 +59,13 @@ int weld_open_edges(TriangleSurface& surface, double distance) {
     number[v] = one == v ? static_cast<int>(result.vertices.size()) : number[one];
     if (one == v) result.vertices.push_back(surface.vertices[v]);
   }
-  for (auto triangle : surface.triangles) {
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    auto triangle = surface.triangles[t];
     for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
-      result.triangles.push_back(triangle);
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      continue;
+    result.triangles.push_back(triangle);
+    if (!surface.texture.empty()) result.texture.push_back(surface.texture[t]);
   }
   if (result.triangles.empty() || faulty_edges(result) >= faulty_edges(surface)) return 0;
   surface = std::move(result);

@@ -7,6 +7,7 @@ import re
 import resource
 import subprocess
 import tempfile
+from decimal import Decimal
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -69,14 +70,14 @@ class Bench:
         result["working"] = [wall - waited for wall, waited in zip(result["wall"], result["waited"])]
         return result
 
-    def kernels(self, names, seconds=0.5):
-        """{name: row} of the benchmarks whose name matches a regular expression: seconds of an iteration, bytes or flops a second, and the share of
-        the machine's limit, where there are such."""
+    def kernels(self, names, seconds=0.5, threads=1):
+        """{name: row} of the benchmarks whose name matches a regular expression: seconds of an iteration (CPU time of one thread) and their median
+        (wall time), bytes or flops a second, and the share of the machine's limit, where there are such."""
         said = json.loads(self.call("plica_bench", f"--benchmark_filter={names}", f"--benchmark_min_time={0.05 if self.small else seconds}",
-                                    "--benchmark_format=json"))
+                                    "--benchmark_format=json", threads=threads))
         units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
-        return {re.sub("/(min_time|iterations|repeats).*", "", b["name"]): {"seconds": b["cpu_time"] * units[b["time_unit"]], "share": b.get("fraction_of_limit"),
-                                                       "rate": b.get("bytes_per_second") or b.get("flops_per_second")}
+        return {re.sub("/(min_time|iterations|repeats).*", "", b["name"]): {"seconds": b["cpu_time"] * units[b["time_unit"]], "median": b.get("median"),
+                                                       "share": b.get("fraction_of_limit"), "rate": b.get("bytes_per_second") or b.get("flops_per_second")}
                 for b in said["benchmarks"] if not b.get("error_occurred")}
 
 
@@ -102,7 +103,7 @@ def table(heads, rows, left=1):
 
 def number(value, digits=2):
     """With so many digits, never by a power of ten."""
-    return f"{float(f'{value:.{digits}g}'):,.9g}"
+    return f"{Decimal(f'{value:.{digits}g}'):,f}"
 
 
 def percent(share):

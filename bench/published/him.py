@@ -2,7 +2,7 @@
 """The hierarchical inverse mass beside explicit steps of the finest mesh: errors and run times by the length of the macro step."""
 import math
 
-from bench import percent, seconds, table
+from bench import number, percent, seconds, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers"), 330
 BEAM = ((48, 12, 12), (24, 6, 6), (12, 3, 3))
@@ -37,11 +37,11 @@ def blocks(data):
         for multiple in STEPS:
             row = near(rows, multiple)
             cells.append("–" if row is None else row["status"] if row["status"] != "completed"
-                         else f"{percent(row['error'])} in {row['wall_time'] / one['wall_time']:.2g}")
+                         else f"{percent(row['error'])} in {number(row['wall_time'] / one['wall_time'])}")
         coarse = [r for r in rows if r["method"].startswith("coarse/1") and r["status"] == "completed" and "/implicit" not in r["method"]]
         alone = min(coarse, key=lambda r: r["error"], default=None)
         lines.append([SCENES[scene], f"{study['tets'][0]:,}", seconds(one["wall_time"]), *cells,
-                      f"{percent(alone['error'])} in {alone['wall_time'] / one['wall_time']:.2g}" if alone else "–"])
+                      f"{percent(alone['error'])} in {number(alone['wall_time'] / one['wall_time'])}" if alone else "–"])
     scenes = table(["scene", "tetrahedra", "explicit", *(f"HIM, {m} ×" for m in STEPS), "next coarser mesh alone"], lines)
     sag, rates = data["sag"]["rows"], []
     done = [row for row in (near(sag, m) for m in STEPS) if row and row["status"] == "completed"]

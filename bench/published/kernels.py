@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the machine can do, and which share of that the kernels of an explicit step reach, on one thread."""
-from bench import seconds, table
+from bench import number, seconds, table
 
-SOURCES, SECONDS = ("core", "kernels", "bench/kernels.cpp", "bench/steps.cpp", "bench/levels.cpp", "bench/limits.cpp"), 120
+SOURCES, SECONDS = ("core", "kernels", "bench/kernels.cpp", "bench/steps.cpp", "bench/levels.cpp", "bench/limits.cpp", "bench/compulsory.hpp"), 120
 KERNELS = {"force": "forces, linear elements", "nodal_force": "forces, nodal elements", "explicit_step": "an explicit step"}
 
 
@@ -12,7 +12,7 @@ def measure(bench):
 
 
 def blocks(rows):
-    limits = [[name.removeprefix("limit/"), f"{row['rate'] / 1e9:.3g} G{'B' if 'triad' in name else 'flop'}/s"]
+    limits = [[name.removeprefix("limit/"), f"{number(row['rate'] / 1e9, 3)} G{'B' if 'triad' in name else 'flop'}/s"]
               for name, row in rows.items() if name.startswith("limit/") and row["rate"]]
     lines = []
     for name, row in rows.items():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Coarse levels that are made of one mesh of an organ: what they are, what they cost, and the error of HIM's steps on them."""
-from bench import ROOT, percent, seconds, table
+from bench import ROOT, number, percent, seconds, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "meshes"), 220
 ORGANS = {"liver": ("20 kPa", "{box: {min: [0.06, -1, -1], max: [1, 1, 1]}}", 0.3),
@@ -41,7 +41,7 @@ def blocks(rows):
     lines = []
     for row in rows:
         him = {int(multiple): value for multiple, value in row["him"].items()}
-        cells = [f"{percent(him[m]['error'])} in {him[m]['part']:.2g}" if m in him else "–" for m in STEPS]
+        cells = [f"{percent(him[m]['error'])} in {number(him[m]['part'])}" if m in him else "–" for m in STEPS]
         lines.append([row["organ"], f"{row['levels'][0]['tets']:,}", ", ".join(f"{level['vertices']:,}" for level in row["levels"]),
                       seconds(row["setup"]), seconds(row["explicit"]), *cells])
     return {"levels": table(["organ", "tetrahedra", "points of the levels", "set-up", "explicit", *(f"HIM, {m} ×" for m in STEPS)], lines)}

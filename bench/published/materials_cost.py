@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Nanoseconds a tetrahedron that each law takes: its force and the product with its tangent, of both elements, in both precisions."""
-from bench import table
+from bench import number, table
 
 SOURCES, SECONDS = ("core", "kernels", "bench/kernels.cpp"), 100
 KINDS = {"force": "linear: force", "tangent": "linear: tangent", "nodal_force": "nodal: force", "nodal_tangent": "nodal: tangent"}
@@ -18,6 +18,6 @@ def measure(bench):
 
 def blocks(rows):
     def cell(row, kind):
-        return " / ".join(f"{1e9 * row[f'{kind}/{p}'] / TETS:.3g}" if f"{kind}/{p}" in row else "–" for p in ("double", "float"))
+        return " / ".join(number(1e9 * row[f"{kind}/{p}"] / TETS, 3) if f"{kind}/{p}" in row else "–" for p in ("double", "float"))
     return {"materials_cost": f"ns a tetrahedron, double / float, {TETS:,} tetrahedra, one thread.\n\n"
             + table(["law", *KINDS.values()], [[f"`{law}`", *(cell(row, kind) for kind in KINDS)] for law, row in rows.items()])}

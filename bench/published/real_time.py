@@ -92,12 +92,12 @@ def cell(row):
     return "diverged" if row["status"] == "diverged" else number(row['factor'])
 
 
-def size_rows(sizes, meshes=("liver.vtk", "by Gmsh", "lattice")):
-    """A line for each mesh: its factors by method, with one and with two threads."""
+def size_rows(sizes, meshes=("liver.vtk", "by Gmsh", "lattice"), methods=tuple(METHODS)):
+    """A line for each mesh: its size, where it is from, and its factors by method, with one and with two threads."""
     for mesh in dict.fromkeys(row["mesh"] for row in sizes if row["body"] in meshes):
         rows = [row for row in sizes if row["mesh"] == mesh]
         by = {(row["method"], row["threads"]): row for row in rows}
-        yield [f"{max(row.get('tets', 0) for row in rows):,}", rows[0]["body"], *(cell(by.get((m, t))) for m in METHODS for t in (1, 2))]
+        yield [f"{max(row.get('tets', 0) for row in rows):,}", rows[0]["body"], *(cell(by.get((m, t))) for m in methods for t in (1, 2))]
 
 
 def largest(sizes, method, threads, body):
@@ -119,7 +119,10 @@ def blocks(data):
     of_touch = table(["macro steps of 1 ms", "median, ms", "99 % below", "longest"],
                      [[r["method"], *(number(1e3 * r[key]) for key in ("median", "late", "longest"))] for r in steps if r.get("median")])
     notes = [f"* {r['tets']:,} {r['body']}, {r['method']}: {r['diagnosis']}" for r in sizes if r.get("diagnosis")]
-    short = table(heads, [*size_rows(sizes, ("liver.vtk", family)), bound], left=2)
+    brief = ("explicit", "HIM")  # of the whole table, for README
+    lines = [[size, *factors] for size, _, *factors in size_rows(sizes, (family,), brief)]
+    short = table(["tetrahedra", *(f"{m}, {t} core{'s' * (t > 1)}" for m in brief for t in (1, 2))],
+                  [*lines, ["**real time up to**", *(f"**{largest(sizes, m, t, family)}**" for m in brief for t in (1, 2))]])
     return {"real_time": "\n\n".join([full, *(["\n".join(notes)] if notes else []),
                                       f"A step of `liver.vtk`, {steps[0].get('tets', 0):,} tetrahedra, while the tool touches:\n\n{of_touch}"]),
             "real_time_short": short}

@@ -75,18 +75,26 @@ def measure(bench):
                 points, tets, held = meshes[1]
                 truth = by_felupe(*quadratic(points, tets), nu, held_by_edges(tets, held))[0][None]
             for (points, tets, held), pressure in itertools.product(meshes[:2], PRESSURES):
-                u, spent = motion(bench, (points, tets, held), pressure, nu, explicit)
+                row = {"body": name, "nu": nu, "steps": "explicit" if explicit else "implicit", "tets": len(tets), "pressure": pressure}
+                try:
+                    u, spent = motion(bench, (points, tets, held), pressure, nu, explicit)
+                except Failed as error:
+                    rows.append({**row, "status": str(error)})
+                    continue
                 error = numpy.linalg.norm(u[:, :count] - truth[:, :count]) / numpy.linalg.norm(truth[:, :count])
-                rows.append({"body": name, "nu": nu, "steps": "explicit" if explicit else "implicit", "tets": len(tets), "pressure": pressure,
-                             "error": float(error), "seconds": spent})
+                rows.append({**row, "error": float(error), "seconds": spent})
     return rows
 
 
 def blocks(rows):
     at = {(r["body"], r["tets"], r["steps"], r["pressure"], r["nu"]): r for r in rows}
     nus = sorted({r["nu"] for r in rows})
+
+    def cell(*key):
+        row = at[key]
+        return f"{percent(row['error'])} in {seconds(row['seconds'])}" if "error" in row else row["status"]
     kinds = dict.fromkeys((r["body"], r["tets"], r["steps"], r["pressure"]) for r in rows)
     lines = [[body, f"{tets:,}", steps, pressure,
-              *(f"{percent(at[body, tets, steps, pressure, nu]['error'])} in {seconds(at[body, tets, steps, pressure, nu]['seconds'])}" for nu in nus)]
+              *(cell(body, tets, steps, pressure, nu) for nu in nus)]
              for body, tets, steps, pressure in sorted(kinds, key=lambda k: (k[0], k[2], k[1], k[3]))]
     return {"smoothing": table(["body", "tetrahedra", "steps", "pressures", *(f"ν {nu:g}: error, CPU time" for nu in nus)], lines, left=4)}

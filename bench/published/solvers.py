@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Preconditioners of implicit Euler's linear systems on beams of three sizes and on organs: conjugate gradients' iterations to 1e-8 and times."""
-from bench import ROOT, Failed, table
+from bench import ROOT, Failed, seconds, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers", "meshes/data/organs"), 200
 PRECONDITIONERS = ("block_jacobi", "chebyshev", "multigrid")
@@ -61,7 +61,7 @@ def blocks(rows):
             return "–"
         if "iterations" not in row:
             return row["status"]
-        return f"{row['iterations']:.0f}, {1e3 * row['step']:.3g} ms" + (f" ({row['misses']} unsolved)" if row["misses"] else "")
+        return f"{row['iterations']:,.0f}, {seconds(row['step'])}" + (f" ({row['misses']} unsolved)" if row["misses"] else "")
     bodies = list(dict.fromkeys(r["body"] for r in rows))
     return {"solvers": "Iterations of a solve, and the time of a step. One thread, double, nodal elements, steps of 10 ms.\n\n"
             + table(["body", *(f"`{p}`" for p in PRECONDITIONERS)], [[body, *(cell(body, p) for p in PRECONDITIONERS)] for body in bodies])}

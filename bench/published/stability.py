@@ -3,7 +3,7 @@
 import json
 import tempfile
 
-from bench import seconds, table
+from bench import number, seconds, table
 
 SOURCES, SECONDS = ("core", "kernels", "drivers"), 330
 SCENES = {"beam": "beam", "ball": "free ball", "slivers": "sheet of flat elements"}
@@ -27,7 +27,7 @@ def blocks(rows):
     for r in rows:
         if r["variant"] or (r["method"].startswith("coarse") and r["integrator"] != "symplectic_euler"):
             continue
-        over = lambda step: "–" if step is None else f"{step / r['critical_step']:.3g} ×"
+        over = lambda step: "–" if step is None else f"{number(step / r['critical_step'], 3)} ×"
         found = over(r["measured"]) if r["measured"] is not None else f"above {over(r['stable_up_to'])}" if r["stable_up_to"] else r["status"]
         lines.append([SCENES[r["scene"]], "/".join(filter(None, (r["method"], r["distribution"]))), seconds(r["critical_step"]), over(r["predicted"]), found])
     return {"stability": table(["scene", "method", "critical step", "predicted", "found by runs"], lines, left=2)}

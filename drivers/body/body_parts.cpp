@@ -80,6 +80,7 @@ BodyLocator::BodyLocator(const TetMesh& mesh, const std::vector<BodyPart>& parts
       v = number[a];
     }
     one.mesh->tets.push_back(tet);
+    if (!mesh.piece.empty()) one.mesh->piece.push_back(mesh.piece[e]);
   }
   for (One& one : parts_) one.locator = std::make_unique<TetLocator>(*one.mesh);
 }

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/body/masses.hpp>
+#include <plica/meshes/composite.hpp>
 
 namespace plica {
 
@@ -30,7 +31,28 @@ std::vector<double> lumped_masses(const TetMesh& mesh, const std::vector<double>
     const double volume = mesh.part(e) * tet_volume(x(0), x(1), x(2), x(3));
     for (int v : t) mass[static_cast<std::size_t>(v)] += of_tet * volume / 4;
   }
+  give_to_masters(mesh.followers, mass);
   return mass;
+}
+
+std::vector<PieceReport> piece_reports(const TetMesh& mesh, const std::vector<double>& density) {
+  std::vector<PieceReport> pieces;
+  std::vector<int> piece_of(mesh.vertices.size(), 0);
+  for (std::size_t e = 0; e < mesh.piece.size(); ++e) {
+    const auto piece = static_cast<std::size_t>(mesh.piece[e]);
+    if (piece >= pieces.size()) pieces.resize(piece + 1);
+    const auto x = corners_of(mesh, static_cast<int>(e));
+    PieceReport& one = pieces[piece];
+    ++one.tets;
+    one.cut += mesh.part(e) < 1 ? 1 : 0;
+    one.mass += density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])] *
+                mesh.part(e) * tet_volume(x[0], x[1], x[2], x[3]);
+    one.least_filled = std::min(one.least_filled, mesh.part(e));
+    for (const int v : mesh.tets[e]) piece_of[static_cast<std::size_t>(v)] = mesh.piece[e];
+  }
+  for (const int v : mesh.followers.vertex)
+    ++pieces[static_cast<std::size_t>(piece_of[static_cast<std::size_t>(v)])].followers;
+  return pieces;
 }
 
 std::vector<double> inherited_masses(const Embedding& up, const std::vector<double>& fine,

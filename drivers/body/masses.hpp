@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
+#include <plica/core/reports.hpp>
 #include <plica/core/transfer.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <string>
@@ -11,8 +12,12 @@ namespace plica {
 /// Returns the density of each region of a mesh [kg/m^3]; one entry where it names none.
 std::vector<double> region_densities(const Body& body, const TetMesh& mesh);
 
-/// Returns the mass of each vertex: a quarter of the mass of each of its tetrahedra [kg].
+/// Returns the mass of each vertex: a quarter of the mass of each of its tetrahedra [kg]. A vertex
+/// that follows others has given its mass to these, by weight, and has none.
 std::vector<double> lumped_masses(const TetMesh& mesh, const std::vector<double>& density);
+
+/// Returns the report of each piece of a mesh, the finest first; none for a mesh without pieces.
+std::vector<PieceReport> piece_reports(const TetMesh& mesh, const std::vector<double>& density);
 
 /// Returns the masses of a coarse level's vertices, restricted from the finer level: m = P^T
 /// m_fine. A vertex that gets none keeps the mass of its own elements (`own`), and all are scaled

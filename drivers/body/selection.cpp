@@ -4,6 +4,8 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/composite.hpp>
+#include <utility>
 
 namespace plica {
 
@@ -122,15 +124,53 @@ std::vector<int> vertices_of(const TetMesh& mesh, int region) {
 
 }  // namespace
 
+namespace {
+
+std::vector<int> named_vertices(const TetMesh& mesh, const std::string& name, bool group,
+                                const Selecting& who) {
+  const auto set = mesh.vertex_sets.find(name);
+  if (group && set != mesh.vertex_sets.end()) return set->second;
+  return vertices_of(mesh, region_named(mesh, name, who, group));
+}
+
+/// Returns what a selection chooses among all vertices.
+std::vector<int> select_all_vertices(const TetMesh& mesh, const Selection& selection,
+                                     const Selecting& who) {
+  if (const std::string* name = name_in(selection))
+    return named_vertices(mesh, *name, std::holds_alternative<GroupSelection>(selection), who);
+  return select(mesh, mesh.vertices, selection, who, "vertex");
+}
+
+/// Returns what a selection chooses among the vertices that follow no others.
+std::vector<int> select_free_vertices(const TetMesh& mesh, const Selection& selection,
+                                      const Selecting& who) {
+  const std::vector<char> follows = follows_others(mesh);
+  if (const std::string* name = name_in(selection)) {
+    const bool group = std::holds_alternative<GroupSelection>(selection);
+    std::vector<int> chosen = named_vertices(mesh, *name, group, who);
+    std::erase_if(chosen, [&](int v) { return follows[static_cast<std::size_t>(v)] != 0; });
+    if (chosen.empty())
+      throw InputError(who.option + ": all vertices of '" + *name + "' on level " +
+                       std::to_string(who.level) +
+                       " are at the border of a part, where they follow the coarser mesh; expected "
+                       "others");
+    return chosen;
+  }
+  std::vector<Point> places;
+  std::vector<int> number;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (follows[v] == 0) places.push_back(mesh.vertices[v]), number.push_back(static_cast<int>(v));
+  std::vector<int> chosen = select(mesh, places, selection, who, "vertex");
+  for (int& v : chosen) v = number[static_cast<std::size_t>(v)];
+  return chosen;
+}
+
+}  // namespace
+
 std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection,
                                  const Selecting& who) {
-  const bool group = std::holds_alternative<GroupSelection>(selection);
-  if (const std::string* name = name_in(selection)) {
-    const auto set = mesh.vertex_sets.find(*name);
-    if (group && set != mesh.vertex_sets.end()) return set->second;
-    return vertices_of(mesh, region_named(mesh, *name, who, group));
-  }
-  return select(mesh, mesh.vertices, selection, who, "vertex");
+  return mesh.followers.vertex.empty() ? select_all_vertices(mesh, selection, who)
+                                       : select_free_vertices(mesh, selection, who);
 }
 
 void expect_without_name(const Selection& selection, const std::string& option) {
@@ -183,18 +223,42 @@ std::vector<std::array<int, 3>> boundary_triangles_of(const TetMesh& mesh,
   return chosen;
 }
 
+/// Returns the triangles. Throws InputError where one is of a tetrahedron that counts in part, so
+/// that not all of the triangle is the body's.
+std::vector<std::array<int, 3>> expect_whole(const TetMesh& mesh,
+                                             std::vector<std::array<int, 3>> triangles,
+                                             const Selecting& who) {
+  std::vector<std::array<int, 3>> cut;  // faces of tetrahedra that count in part
+  for (std::size_t e = 0; e < mesh.filled.size(); ++e) {
+    const auto& t = mesh.tets[e];
+    if (mesh.filled[e] < 1)
+      for (std::size_t k = 0; k < 4; ++k)
+        cut.push_back(ascending({t[k], t[(k + 1) % 4], t[(k + 2) % 4]}));
+  }
+  std::sort(cut.begin(), cut.end());
+  for (const auto& t : triangles)
+    if (std::binary_search(cut.begin(), cut.end(), ascending(t)))
+      throw InputError(who.option + ": a triangle at " +
+                       coordinates(mesh.vertices[static_cast<std::size_t>(t[0])]) +
+                       " m is of an element that a finer part cuts on level " +
+                       std::to_string(who.level) +
+                       "; expected triangles inside the part or away from it, a force, or a part "
+                       "whose border lies on faces of the coarser mesh");
+  return triangles;
+}
+
 }  // namespace
 
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
                                                  const Selecting& who) {
-  if (!mesh.filled.empty())
+  if (!mesh.filled.empty() && mesh.piece.empty())
     throw InputError(who.option + ": level " + std::to_string(who.level) +
                      " is a lattice, whose faces are not the body's; expected a force, contact, or "
                      "a mesh that fits");
   if (const auto* group = std::get_if<GroupSelection>(&selection))
     if (const auto set = mesh.triangle_sets.find(group->name); set != mesh.triangle_sets.end())
-      return boundary_triangles_of(mesh, set->second, who);
-  const std::vector<int> vertices = select_vertices(mesh, selection, who);
+      return expect_whole(mesh, boundary_triangles_of(mesh, set->second, who), who);
+  const std::vector<int> vertices = select_all_vertices(mesh, selection, who);
   std::vector<char> in(mesh.vertices.size(), 0);
   for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;
   std::vector<std::array<int, 3>> chosen;
@@ -207,7 +271,7 @@ std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Sele
         who.option + ": selects " + std::to_string(vertices.size()) + " vertices on level " +
         std::to_string(who.level) +
         ", but no boundary triangle with all three of its vertices; a traction needs some");
-  return chosen;
+  return expect_whole(mesh, std::move(chosen), who);
 }
 
 void add_regions(TetMesh& mesh, const std::map<std::string, RegionOptions>& regions, int level) {

@@ -20,8 +20,9 @@ struct Selecting {
   int level = 0;
 };
 
-/// Returns the vertices of a mesh at rest that a selection chooses, ascending; at least one. Throws
-/// InputError where there is none, or no group of that name.
+/// Returns the vertices of a mesh at rest that a selection chooses, ascending; at least one.
+/// Vertices that follow others are never chosen. Throws InputError where there is none, or no group
+/// of that name.
 std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection,
                                  const Selecting& who);
 

@@ -42,6 +42,7 @@ HeldDirections surface_normals(const TetMesh& mesh, const Selection& where, cons
                               who.level,
                               " is at an edge of the surface chosen, where there is none; expected "
                               "an entry for each of its sides"));
+  for (const int v : mesh.followers.vertex) normals.erase(v);
   return normals;
 }
 

@@ -388,6 +388,18 @@ void Contact<B>::release(const Exec& exec, int obstacle) const {
 }
 
 template <class B>
+void Contact<B>::take_memory(const Exec& exec, const Contact& before) const {
+  if (memory_.extent(0) == 0) return;
+  const std::vector<double> old = host_values(exec, before.memory_);
+  std::vector<double> now = host_values(exec, memory_);
+  std::copy_n(old.begin(), grasps_.first, now.begin());
+  for (int o = 0; grasps_.places > 0 && o < obstacles(); ++o)
+    std::copy_n(old.begin() + before.grasps_.at(o * before.points_),
+                Grasps<B>::numbers * before.points_, now.begin() + grasps_.at(o * points_));
+  copy(exec, memory_, to_device<Doubles<B>>("contact.taken", now));
+}
+
+template <class B>
 std::vector<int> Contact<B>::held_by(const Exec& exec, int obstacle) const {
   const std::vector<double> all = host_values(exec, memory_);
   std::vector<int> held;

@@ -118,6 +118,9 @@ class Contact {
   /// In this order: poses of tools with mass (see ObstaclePose), grasped points (see Grasps), torn
   /// points (see Attachments).
   const Doubles<B>& memory() const { return memory_; }
+  /// Takes the memory of contact with the same obstacles, whose surface has the first of these
+  /// points. The others are not grasped.
+  void take_memory(const Exec&, const Contact& before) const;
   /// Grasps the points near an obstacle in the state of level 0, whose records these are.
   void grasp(const Exec&, const LevelData<B>&, double time, int obstacle,
              const ContactRecords<B>&) const;

@@ -135,6 +135,10 @@ class ContactResponse {
                   const BlockMatrix<B>& A) const;
 
   const ContactRecords<B>& records() const { return records_; }
+  /// Goes on with the work of friction of a response before it.
+  void take_work(const Exec& exec, const ContactResponse& before) const {
+    copy(exec, work_, before.work_);
+  }
   /// Forgets what a step takes from the last.
   void reset_history(const Exec& exec);
   void name_fields(Archive<B>& archive, const std::string& name);

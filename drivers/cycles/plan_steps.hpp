@@ -89,6 +89,9 @@ class SubstepRefused : public InputError {
 /// Returns shares, macro step and sub-steps of a cycle.
 /// Throws InputError where a macro step cannot be derived. Throws SubstepRefused, with the numbers
 /// and the remedy, for an explicit sub-step above its limit unless allow_unstable.
-StepPlan plan_steps(const IntegrationOptions& options, const std::vector<LevelLimits>& levels);
+/// `cuts`: the body will be cut, after which its limits are shorter; an automatic macro step leaves
+/// room for that.
+StepPlan plan_steps(const IntegrationOptions& options, const std::vector<LevelLimits>& levels,
+                    bool cuts = false);
 
 }  // namespace plica

@@ -26,7 +26,8 @@ class SharedStep : public Stepper<B> {
     for (const LevelReport& r : setup.reports)
       limits.push_back({r.tets, r.integrator, r.explicit_integrator, r.critical_step,
                         r.stiffest.front(), r.typical_element});
-    const StepPlan steps = plan_steps(setup.problem.integration, limits);
+    const StepPlan steps =
+        plan_steps(setup.problem.integration, limits, !setup.problem.cuts.empty());
     setup.macro_step = steps.macro_step;
     for (int i = 0; i < setup.hierarchy.count(); ++i) {
       const auto k = static_cast<std::size_t>(i);

@@ -4,6 +4,7 @@
 #include <plica/core/dense.hpp>
 #include <plica/drivers/elastic/largest_eigenvalue.hpp>
 #include <plica/kernels/elastic/stiffness_lanczos.hpp>
+#include <plica/kernels/followers.hpp>
 #include <utility>
 
 namespace plica {
@@ -14,6 +15,7 @@ namespace {
 template <class B>
 double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x,
                 const Vectors<B>& y, const BlockSums<B>& blocks, const Doubles<B>& result) {
+  follow_masters(exec, K.level.model, x);
   K.elasticity.tangent(exec, K.level, K.u, x, K.damping_scale);
   reduce<B, 1>(exec, "plica::lanczos_stiffness", K.level.model.vertices,
                StiffnessProduct<B>{K.level.model, K.level.partial, x, y}, blocks, result);

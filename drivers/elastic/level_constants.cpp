@@ -6,6 +6,7 @@
 #include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <plica/drivers/elastic/materials.hpp>
+#include <plica/meshes/composite.hpp>
 
 namespace plica {
 
@@ -29,7 +30,8 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
     return {of_region.front()};
   for (std::size_t r = 0; r < density.size(); ++r) density[r] *= of_region[r];
   std::vector<double> damping = lumped_masses(mesh, density);
-  for (std::size_t a = 0; a < damping.size(); ++a) damping[a] /= mass[a];
+  for (std::size_t a = 0; a < damping.size(); ++a)  // a vertex that follows others has no mass
+    damping[a] = mass[a] > 0 ? damping[a] / mass[a] : of_region.front();
   return damping;
 }
 
@@ -99,6 +101,7 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
   c.velocity.assign(mesh.vertices.size(), Point::Zero());
   // other levels take their velocities from level 0
   if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);
+  follow_masters(mesh.followers, c.velocity);
   return c;
 }
 

@@ -25,7 +25,7 @@ struct LevelConstants {
   /// per vertex [1/s]; one entry where it is the same everywhere
   std::vector<double> mass_damping;
   std::vector<double> stiffness_damping;  ///< per region [s]; empty where there is none
-  /// per vertex [kg], a quarter of each of its tetrahedra
+  /// per vertex [kg], see lumped_masses()
   std::vector<double> mass;
   std::vector<char> constrained;       ///< per vertex: all of its motion is given
   std::vector<SlidingVertex> sliding;  ///< vertices that are held in part

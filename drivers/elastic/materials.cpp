@@ -174,7 +174,7 @@ bool needs_sheet(const MaterialInfo& info, const std::vector<double>& values) {
 void check_at_rest(const MaterialInfo& info, const std::string& where, const MaterialOptions& body,
                    const RegionOptions& region) {
   const std::vector<double> values = parameter_values(info, body, region);
-  const keys::Quantity shear{keys::pressure, keys::positive};
+  const keys::Quantity shear{keys::pressure, keys::stiffness};
   const Lame<double> rest = info.small_strains(values);
   shear.check(where + ", as the shear stiffness of " + std::string(info.name) + " at rest,",
               rest.mu);

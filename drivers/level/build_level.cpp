@@ -6,6 +6,7 @@
 #include <plica/drivers/elastic/build_nodal_rows.hpp>
 #include <plica/drivers/elastic/build_patches.hpp>
 #include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/level/build_followers.hpp>
 #include <plica/drivers/level/build_level.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 
@@ -78,7 +79,7 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
     if (!c.fibres.empty())
       model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
-    model.shares = model.patches.shares;
+    model.shares = with_followers(model.patches.shares, placed);
   } else {
     const bool smoothed = smooths_pressure(body, c.lame);
     NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
@@ -87,7 +88,7 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
       if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
     }
     model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
-    model.shares = model.rows.shares;
+    model.shares = with_followers(model.rows.shares, placed);
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty())
       model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres, c.families);
@@ -110,13 +111,16 @@ LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelCon
   LevelData<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
+  level.model.followers = following_vertices<B>(placed);
   add_elements(level, body, placed, c, beside);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
   for (std::size_t v = 0; v < n; ++v) {
     mass[v] = static_cast<Real>(c.mass[v]);
-    inverse[v] = c.constrained[v] ? Real(0) : static_cast<Real>(1 / c.mass[v]);
+    // a follower has no mass, and forces do not move it
+    const bool moves = !c.constrained[v] && c.mass[v] > 0;
+    inverse[v] = moves ? static_cast<Real>(1 / c.mass[v]) : Real(0);
     if (!c.constrained[v]) velocity[v] = c.velocity[v];
   }
   std::vector<PathKnot> knots;

@@ -56,6 +56,7 @@ template <class B>
 void Level<B>::add_term_product(const State<B>& at, const Vectors<B>& p, double scale,
                                 bool projected, const Vectors<B>& q) const {
   for (const auto& term : terms) term->add_product(exec(), at, p, scale, projected, q);
+  collect(q);
 }
 
 template <class B>
@@ -94,6 +95,7 @@ void Level<B>::add_product_beside_matrix(const State<B>& at, const Vectors<B>& p
     if (term->stiffness() == TermStiffness::unassembled)
       term->add_product(exec(), at, p, weights.a, projected, q);
   if (contact_) response_.add_product(exec(), *this, p, true, q);
+  collect(q);
 }
 
 template <class B>
@@ -119,7 +121,14 @@ void Level<B>::evaluate_without_contact(const State<B>& at, double time, const V
   for (const auto& term : terms) term->add_force(exec(), at, time, force);
   if (external_) timed("external", [&] { ask_caller(at, time, 0, 0, force); });
   add_correction(force);
+  collect(force);
   hold_sliding(exec(), *this, force);
+}
+
+template <class B>
+void Level<B>::collect(const Vectors<B>& force) const {
+  if (!terms.empty() || external_ || correction_.extent(0) > 0)
+    collect_followers(exec(), this->model, force);
 }
 
 template <class B>
@@ -132,6 +141,7 @@ void Level<B>::measure_forces(double time, const Vectors<B>& force) {
   gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
   for (const auto& term : terms) term->add_force(exec(), this->state, time, force);
   add_correction(force);
+  collect(force);
   if (contact_) response_.add_last_forces(exec(), *this, force);
 }
 
@@ -142,6 +152,7 @@ void Level<B>::dead_loads(double time, const Vectors<B>& force) const {
   for (const auto& term : terms)
     if (term->stiffness() == TermStiffness::none) term->add_force(exec(), this->state, time, force);
   add_correction(force);
+  collect(force);
 }
 
 template <class B>
@@ -153,6 +164,7 @@ void Level<B>::linearise(const State<B>& at, double time, const ImplicitWeights&
   for (const auto& term : terms) term->add_force(exec(), at, time + ahead, force);
   if (external_) timed("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
   add_correction(force);
+  collect(force);
 }
 
 template <class B>
@@ -197,6 +209,7 @@ void Level<B>::keep_tangents() {
 template <class B>
 void Level<B>::tangent(const State<B>& at, const Vectors<B>& p, double damping_scale,
                        bool projected) const {
+  follow_masters(exec(), this->model, p);
   elasticity_->tangent(exec(), *this, state_or_cached(at), p, damping_scale, projected);
 }
 
@@ -226,6 +239,7 @@ void Level<B>::add_product_beside_elements(const Vectors<B>& p, const ImplicitWe
     update_vertices<B>(
         exec(), "plica::external_product", this->model.vertices,
         AddBlockProduct<B>{external_stiffness_, p, q, static_cast<typename B::Real>(weights.a)});
+  collect(q);
 }
 
 template <class B>

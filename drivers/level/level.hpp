@@ -85,6 +85,11 @@ class Level : public LevelData<B> {
   bool has_stiff_terms() const {
     return has_terms(TermStiffness::assembled) || has_terms(TermStiffness::unassembled);
   }
+  /// Returns whether the system of a stage has only inertia and the elements' stiffness.
+  bool is_stiffness_alone() const {
+    return !contact_ && !has_stiff_terms() && !viscosity &&
+           this->model.patches.damping.extent(0) == 0;
+  }
   /// Returns an upper bound of what the terms add to the squared frequencies at rest [1/s^2].
   double term_frequency() const;
 
@@ -96,7 +101,8 @@ class Level : public LevelData<B> {
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead,
                  const Vectors<B>& f);
   /// Computes q = A p, with A = (1 + b c) M + a K + contact at the linearised state; see
-  /// ImplicitWeights. `projected`: see Elasticity::tangent.
+  /// ImplicitWeights. `projected`: see Elasticity::tangent. Followers in p are first put where
+  /// their masters are, here and in tangent().
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
                bool projected, const Vectors<B>& q) const;
   /// Adds to q what contact and a caller's forces add to A p.
@@ -146,6 +152,8 @@ class Level : public LevelData<B> {
   const ContactResponse<B>& response() const { return response_; }
   bool asks_caller() const { return static_cast<bool>(external_); }
   long evaluations() const { return evaluations_; }
+  /// Sets the number of evaluations so far, of a level that goes on from another one.
+  void set_evaluations(long count) { evaluations_ = count; }
   /// Sets the function that adds a caller's forces from now on; an empty one ends that. `rest`: the
   /// level's vertices at rest [m].
   void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
@@ -184,6 +192,8 @@ class Level : public LevelData<B> {
   Vectors<B> linearised_;  ///< displacements whose gradients are kept
 
   void element_force(const State<B>& state, double time, const Vectors<B>& f);
+  /// Hands to their masters the forces on followers that are not from elements. Contact has none.
+  void collect(const Vectors<B>& f) const;
   /// Returns the displacements from which tangents are computed: none where gradients of them are
   /// kept.
   Vectors<B> state_or_cached(const State<B>& at) const {

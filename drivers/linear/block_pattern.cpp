@@ -48,7 +48,7 @@ class PatternBuilder {
  public:
   explicit PatternBuilder(const Model<B>& model)
       : vertices_(model.vertices),
-        inverse_mass_(on_host(model.inverse_mass)),
+        is_free_(free_or_following(model)),
         first_pack_(on_host(model.patches.first_pack)),
         first_vertex_(on_host(model.patches.first_vertex)),
         vertex_(on_host(model.patches.vertex)),
@@ -85,7 +85,7 @@ class PatternBuilder {
   template <class View>
   using Host = decltype(on_host(std::declval<View>()));
   int vertices_;
-  Host<Scalars<B>> inverse_mass_;
+  std::vector<char> is_free_;  // [vertices] 1 where forces move a vertex, or it follows others
   Host<Indices<B>> first_pack_, first_vertex_, vertex_;
   Host<decltype(Patches<B>::corner)> corner_;
   Host<Indices<B>> element_;
@@ -98,7 +98,15 @@ class PatternBuilder {
   std::vector<std::uint16_t> slot_;
   std::vector<int> first_share_{0}, shared_place_;
 
-  bool is_free(int a) const { return inverse_mass_(a) > 0; }
+  static std::vector<char> free_or_following(const Model<B>& model) {
+    const auto inverse_mass = on_host(model.inverse_mass);
+    const auto follower = on_host(model.followers.place.target);
+    std::vector<char> free;
+    for (int a = 0; a < model.vertices; ++a) free.push_back(inverse_mass(a) > 0);
+    for (int i = 0; i < model.followers.place.rows; ++i) free[index_of(follower(i))] = 1;
+    return free;
+  }
+  bool is_free(int a) const { return is_free_[index_of(a)] != 0; }
 
   template <class Work>
   void for_all_patches(const Work& work) {
@@ -214,9 +222,30 @@ BlockPattern<B> block_pattern(const Model<B>& model) {
   return PatternBuilder<B>(model).finish();
 }
 
+template <class B>
+RowMatrix motion_of_free(const Model<B>& model) {
+  const auto inverse_mass = on_host(model.inverse_mass);
+  const Transfer<B>& place = model.followers.place;
+  const auto target = on_host(place.target);
+  const auto source = on_host(place.source);
+  const auto weight = on_host(place.weight);
+  std::vector<std::vector<std::pair<int, double>>> rows(index_of(model.vertices));
+  for (int a = 0; a < model.vertices; ++a)
+    if (inverse_mass(a) > 0) rows[index_of(a)] = {{a, 1.0}};
+  for (int i = 0; i < place.rows; ++i) {
+    auto& row = rows[index_of(target(i))];
+    for (int c = 0; c < 4; ++c)
+      if (weight(i, c) != 0 && inverse_mass(source(i, c)) > 0)
+        row.emplace_back(source(i, c), static_cast<double>(weight(i, c)));
+    std::ranges::sort(row);
+  }
+  return matrix_of_rows(rows, model.vertices);
+}
+
 #define PLICA_INSTANTIATE(Real, Exec)                                            \
   template BlockPattern<Backend<Real, Exec>> block_pattern<Backend<Real, Exec>>( \
-      const Model<Backend<Real, Exec>>&);
+      const Model<Backend<Real, Exec>>&);                                        \
+  template RowMatrix motion_of_free<Backend<Real, Exec>>(const Model<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
+#include <plica/drivers/spaces/row_matrix.hpp>
 #include <vector>
 
 namespace plica {
@@ -27,8 +28,14 @@ struct BlockPattern {
 };
 
 /// Returns the pattern of a model's matrix.
-/// A row of a vertex with a zero inverse mass has only its own block.
+/// A row of a vertex with a zero inverse mass has only its own block, unless it follows others.
 template <class B>
 BlockPattern<B> block_pattern(const Model<B>& model);
+
+/// Returns T, [vertices x vertices]: u = T y is the motion of all vertices from that of those which
+/// forces move. Vertices whose motion is given have an empty row and column, followers an empty
+/// column.
+template <class B>
+RowMatrix motion_of_free(const Model<B>& model);
 
 }  // namespace plica

@@ -52,7 +52,7 @@ struct ConjugateGradients {
     }
 
     bool multiply(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const override {
-      if (!system_.by_matrix_alone()) return false;
+      if (!system_.by_matrix_alone() || system_.composes()) return false;
       system_.product(exec, p, q);
       return true;
     }

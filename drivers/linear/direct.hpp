@@ -67,13 +67,20 @@ struct Direct {
     bool projects_;
     long projected_ = 0;
     Matrix lower_;
-    /// [values of lower_] block of the matrix that has the value, and the number in the block
+    /// [values of lower_] block of the matrix that has the value, and the number in the block; a
+    /// negative block: the value is 1
     std::vector<std::pair<int, int>> entries_;
     Eigen::SimplicialLDLT<Matrix> factor_;
 
     /// Returns true where a row has more than its own block.
     /// A vertex whose motion is given has only its own block, and its column is left out.
     static bool coupled(const BlockMatrix<B>& A, int a) { return A.first(a + 1) - A.first(a) > 1; }
+
+    /// Returns true where a row of T^T A T is empty, see StageSystem::composes(): its vertex does
+    /// not move, or follows others.
+    bool is_empty(int a) const {
+      return system_.composes() && system_.inverse_diagonal()(a, 0) == 0;
+    }
 
     bool indefinite() const {
       return factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any();
@@ -88,7 +95,7 @@ struct Direct {
       if (lower_.rows() == 0) analyse(A);
       double* value = lower_.valuePtr();
       for (const auto& [block, entry] : entries_)
-        *value++ = static_cast<double>(A.value(block, entry));
+        *value++ = block < 0 ? 1.0 : static_cast<double>(A.value(block, entry));
       factor_.factorize(lower_);
     }
 
@@ -97,7 +104,9 @@ struct Direct {
       for (int a = 0; a < A.rows; ++a)
         for (int s = A.diagonal(a); s < A.first(a + 1); ++s)  // column a, by symmetry
           for (int k = 0; k < 9 && (A.column(s) == a || coupled(A, A.column(s))); ++k)
-            if (3 * A.column(s) + k / 3 >= 3 * a + k % 3)
+            if (is_empty(a)) {
+              if (k % 4 == 0) triplets.emplace_back(3 * a + k / 3, 3 * a + k / 3, -1.0);
+            } else if (3 * A.column(s) + k / 3 >= 3 * a + k % 3)
               triplets.emplace_back(3 * A.column(s) + k / 3, 3 * a + k % 3,
                                     static_cast<double>(9 * A.place(s) + k));
       lower_.resize(3 * A.rows, 3 * A.rows);
@@ -105,7 +114,7 @@ struct Direct {
       lower_.makeCompressed();
       for (Eigen::Index i = 0; i < lower_.nonZeros(); ++i) {
         const auto place = static_cast<int>(lower_.valuePtr()[i]);
-        entries_.emplace_back(place / 9, place % 9);
+        entries_.emplace_back(place < 0 ? -1 : place / 9, place < 0 ? 0 : place % 9);
       }
       factor_.analyzePattern(lower_);
     }

@@ -25,8 +25,10 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
     if (nodal_ && !has_products())
       blocks_of_matrix_ =
           zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
+    if (composes())
+      composed_ = coarse_matrix<B>(host_pattern(pattern_.matrix), motion_of_free<B>(level_->model));
   }
-  return pattern_.matrix;
+  return composes() ? composed_.matrix : pattern_.matrix;
 }
 
 template <class B>
@@ -83,15 +85,20 @@ void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
 
 template <class B>
 const BlockMatrix<B>& StageSystem<B>::matrix(const Exec& exec) {
-  pattern();
+  const BlockMatrix<B>& A = pattern();
   if (!ready_) {
     forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+    if (composes()) galerkin_product<B>(exec, composed_.map, pattern_.matrix, composed_.matrix);
     if (level_->sliding.count > 0)
-      update_vertices<B>(exec, "plica::hold_matrix", rows(),
-                         HoldMatrix<B>{level_->sliding, pattern_.matrix});
+      update_vertices<B>(exec, "plica::hold_matrix", rows(), HoldMatrix<B>{level_->sliding, A});
   }
   ready_ = true;
-  return pattern_.matrix;
+  return A;
+}
+
+template <class B>
+const BlockMatrix<B>& StageSystem<B>::stored() const {
+  return composes() ? composed_.matrix : pattern_.matrix;
 }
 
 template <class B>
@@ -104,8 +111,8 @@ const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
   if (by_matrix()) {
-    update_vertices<B>(exec, "plica::block_product", rows(),
-                       BlockProduct<B>{pattern_.matrix, p, q});
+    update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{stored(), p, q});
+    if (!by_matrix_alone()) follow_masters(exec, level_->model, p);
     forces_->add_product_beside_matrix(state_, p, weights_, positive_, q);
   } else {
     forces_->product(state_, p, weights_, positive_, q);
@@ -118,8 +125,8 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
                              const BlockSums<B>& sums, const Doubles<B>& curvature,
                              const CgStep<B>& then) const {
   if (by_matrix_alone())
-    return reduce<B, 1>(exec, "plica::block_product", rows(),
-                        BlockProductDot<B>{pattern_.matrix, p, q}, sums, curvature, then);
+    return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{stored(), p, q},
+                        sums, curvature, then);
   product(exec, p, q);
   reduce<B, 1>(exec, "plica::curvature", rows(), Dot<B>{p, q}, sums, curvature, then);
 }
@@ -127,8 +134,7 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 template <class B>
 void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
   if (by_matrix_alone())
-    update_vertices<B>(exec, "plica::space_products", rows(),
-                       SpaceProducts<B>{pattern_.matrix, space});
+    update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{stored(), space});
   else
     for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);
 }

@@ -50,15 +50,20 @@ class StageSystem {
   const BlockMatrix<B>& pattern();
   /// Returns true where a product needs the matrix and nothing else.
   bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
+  /// Returns true where the matrix is T^T A T of the free vertices, since others follow them. It
+  /// has no columns for vertices whose motion is given.
+  bool composes() const { return level_->model.followers.any(); }
   int rows() const { return level_->model.vertices; }
   void name_fields(Archive<B>& archive) const {
     archive.owns(pattern_, shares_, inverse_diagonal_, blocks_of_matrix_);
+    archive.owns(composed_.matrix, composed_.map);
     if (cycle_product_) cycle_product_->name_fields(archive);
   }
 
  private:
   bool nodal_, assembled_, ready_ = false;  ///< ready_: the matrix is that of this stage
   BlockPattern<B> pattern_;
+  CoarseMatrix<B> composed_;  ///< matrix of the free vertices; empty where none follow others
   Blocks9<B> shares_;
   /// inverses of vertex blocks: of A; of the matrix, for nodal elements without cycle_product_
   Blocks<B> inverse_diagonal_, blocks_of_matrix_;
@@ -69,6 +74,7 @@ class StageSystem {
   ImplicitWeights weights_;
   bool positive_ = false;
 
+  const BlockMatrix<B>& stored() const;
   InvertBlocks<B> inverting(const Blocks<B>& blocks) const;
   void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);

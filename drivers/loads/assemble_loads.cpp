@@ -64,6 +64,18 @@ std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh,
   return force;
 }
 
+/// Gives the forces on vertices that follow others to these, by weight.
+void give_forces_to_masters(const Followers& followers, std::map<int, Point>& force) {
+  for (std::size_t i = 0; i < followers.vertex.size(); ++i) {
+    const auto own = force.find(followers.vertex[i]);
+    if (own == force.end()) continue;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const double w = followers.weight[i][k]; w != 0)
+        force.try_emplace(followers.of[i][k], Point::Zero()).first->second += w * own->second;
+    force.erase(own);
+  }
+}
+
 }  // namespace
 
 bool has_follower_loads(const Body& body) { return std::ranges::any_of(body.loads, follows); }
@@ -77,7 +89,9 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
     const Selecting who{"body.loads." + std::to_string(i), level};
     AssembledLoad made;
     bool free = false;
-    for (const auto& [v, force] : forces_of(load, mesh, constants.mass, who)) {
+    std::map<int, Point> forces = forces_of(load, mesh, constants.mass, who);
+    give_forces_to_masters(mesh.followers, forces);
+    for (const auto& [v, force] : forces) {
       free = free || !constants.constrained[static_cast<std::size_t>(v)];
       made.vertex.push_back(v), made.force.push_back(force);
       made.resultant += force;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/to_device.hpp>
 #include <plica/drivers/loads/exchange.hpp>
 #include <plica/kernels/loads/exchange.hpp>
 
@@ -49,6 +50,30 @@ void read_surface(const typename B::Exec& exec, const EmbeddedSurface<B>& surfac
 }
 
 template <class B>
+SurfaceFans<B> build_fans(const TriangleSurface& surface) {
+  std::vector<std::vector<int>> around(surface.vertices.size());
+  for (const auto& t : surface.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const std::size_t next : {k + 1, k + 2})
+        around[static_cast<std::size_t>(t[k])].push_back(t[next % 3]);
+  std::vector<int> first{0}, others;
+  for (const std::vector<int>& own : around) {
+    others.insert(others.end(), own.begin(), own.end());
+    first.push_back(static_cast<int>(others.size()));
+  }
+  return {to_device<Indices<B>>("surface.first_around", first),
+          to_device<Indices<B>>("surface.around", others)};
+}
+
+template <class B>
+void read_normals(const typename B::Exec& exec, const SurfaceFans<B>& fans, const Vectors<B>& x,
+                  const DeviceOutput<B>& to) {
+  over_rows<B>(exec, "plica::read_normals", to, x.extent(0), [&]<class Out>(const Out& view) {
+    return SurfaceNormals<B, Out>{fans, x, view};
+  });
+}
+
+template <class B>
 void write_positions(const typename B::Exec& exec, const DeviceInput<B>& from,
                      const Vectors<B>& rest, const Vectors<B>& u) {
   over_rows<B>(exec, "plica::write_positions", from, u.extent(0), [&]<class In>(const In& view) {
@@ -73,6 +98,11 @@ void write_vectors(const typename B::Exec& exec, const DeviceInput<B>& from,
   template void read_surface<Backend<Real, Exec>>(                                                 \
       const Exec&, const EmbeddedSurface<Backend<Real, Exec>>&, const State<Backend<Real, Exec>>&, \
       bool, const DeviceOutput<Backend<Real, Exec>>&);                                             \
+  template SurfaceFans<Backend<Real, Exec>> build_fans<Backend<Real, Exec>>(                       \
+      const TriangleSurface&);                                                                     \
+  template void read_normals<Backend<Real, Exec>>(                                                 \
+      const Exec&, const SurfaceFans<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&,   \
+      const DeviceOutput<Backend<Real, Exec>>&);                                                   \
   template void write_positions<Backend<Real, Exec>>(                                              \
       const Exec&, const DeviceInput<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&,   \
       const Vectors<Backend<Real, Exec>>&);                                                        \

@@ -2,9 +2,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <plica/core/row_ranges.hpp>
 #include <plica/core/time_functions.hpp>
 #include <plica/drivers/loads/follower_pressures.hpp>
 #include <plica/kernels/vectors.hpp>
+#include <utility>
+#include <vector>
 
 namespace plica {
 
@@ -104,9 +108,30 @@ double FollowerPressures<B>::energy(const Exec& exec, const State<B>& at, double
   return sum;
 }
 
+namespace {
+
+/// Returns per vertex its masters and their weights, where it follows others; empty: none does.
+template <class B>
+std::vector<std::vector<std::pair<int, double>>> masters_of_vertices(const Model<B>& model) {
+  std::vector<std::vector<std::pair<int, double>>> parts;
+  const Transfer<B>& place = model.followers.place;
+  if (place.rows == 0) return parts;
+  parts.resize(index_of(model.vertices));
+  const auto target = on_host(place.target);
+  const auto source = on_host(place.source);
+  const auto weight = on_host(place.weight);
+  for (int i = 0; i < place.rows; ++i)
+    for (int c = 0; c < 4; ++c)
+      parts[index_of(target(i))].emplace_back(source(i, c), static_cast<double>(weight(i, c)));
+  return parts;
+}
+
+}  // namespace
+
 template <class B>
 double FollowerPressures<B>::squared_frequency(const LevelData<B>& level) const {
   const auto inverse_mass = on_host(level.model.inverse_mass);
+  const auto parts = masters_of_vertices(level.model);
   double sum = 0;
   for (const FollowerLoad<B>& load : loads_) {
     if (!load.cavity) continue;
@@ -116,12 +141,20 @@ double FollowerPressures<B>::squared_frequency(const LevelData<B>& level) const 
                second = on_host(load.second), third = on_host(load.third);
     const auto rest = on_host(load.rest);
     const auto at = [&](int i) { return Point(rest(i, 0), rest(i, 1), rest(i, 2)); };
+    std::map<int, Point> beside;  // areas of followers, by their masters
     for (int i = 0; i < load.count; ++i) {
       Point a = Point::Zero();
       for (int t = first(i); t < first(i + 1); ++t)
         a += (at(second(t)) - at(i)).cross(at(third(t)) - at(i)) / 6;
+      if (!parts.empty() && !parts[index_of(vertex(i))].empty())
+        for (const auto& [master, weight] : parts[index_of(vertex(i))])
+          beside.try_emplace(master, Point::Zero()).first->second += weight * a;
       sum += stiffness * a.squaredNorm() * static_cast<double>(inverse_mass(vertex(i)));
     }
+    // |a + b|^2 <= 2 |a|^2 + 2 |b|^2, where a vertex has an area of its own
+    if (!beside.empty()) sum *= 2;
+    for (const auto& [master, a] : beside)
+      sum += 2 * stiffness * a.squaredNorm() * static_cast<double>(inverse_mass(master));
   }
   return sum;
 }

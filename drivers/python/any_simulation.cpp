@@ -40,6 +40,7 @@ class SimulationOf final : public AnySimulation {
         choice_(choice),
         simulation_(with_choice(scene_->problem, choice)),
         surface_points_(simulation_.surface_positions().size()) {
+    if (!scene_->numbering.empty()) level0_ = scene_->numbering.front();
     simulation_.share_cores();
   }
 
@@ -51,16 +52,17 @@ class SimulationOf final : public AnySimulation {
       for (; at_most > 0 && !bad && simulation_.time() < until - rounding; --at_most) {
         const auto start = std::chrono::steady_clock::now();
         bad = step();
+        follow_cuts();
         wall_time_ +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         between();
       }
     } catch (...) {
-      refresh();
+      follow_cuts(), refresh();
       throw;
     }
     if (bad) simulation_.return_to_last_good();
-    refresh();
+    follow_cuts(), refresh();
     return bad;
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
@@ -92,6 +94,11 @@ class SimulationOf final : public AnySimulation {
                      simulation_.obstacle_rotation(i), simulation_.obstacle_origin(i)});
     }
     return all;
+  }
+  CutReport cut(const Blade& blade) override {
+    const CutReport report = changing().cut(blade);
+    follow_cuts();
+    return report;
   }
   void set_gravity(const Point& gravity) override {
     expect_between_steps();
@@ -150,7 +157,7 @@ class SimulationOf final : public AnySimulation {
   SavedState save() const override { return simulation_.save(); }
   void restore(const SavedState& saved) override {
     changing().restore(saved);
-    refresh();
+    follow_cuts(), refresh();
   }
   void reset() override {
     if (!start_) start_ = fresh_ ? save() : SimulationOf(scene_, choice_).save();
@@ -163,6 +170,7 @@ class SimulationOf final : public AnySimulation {
     folder_ = folder;
   }
   void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) override {
+    files_->follow_cuts(simulation_);
     if (files_->frames() == 0 || files_->last_time() < simulation_.time())
       files_->write(
           app::take_snapshot(simulation_, simulation_.time(), files_->volumes(), files_->output()));
@@ -178,6 +186,7 @@ class SimulationOf final : public AnySimulation {
     summary.reactions = reactions(), summary.tools = tools();
     summary.held = held();
     summary.residual = simulation_.worst_residual();
+    if (!simulation_.twins().empty()) summary.cuts = simulation_.cuts();
     app::write_file(folder_ / "summary.json",
                     app::summary_json(*scene_, summary, {"import plica"}));
   }
@@ -227,11 +236,23 @@ class SimulationOf final : public AnySimulation {
       throw InputError("level: there is no level " + std::to_string(level) +
                        "; the simulation has " + std::to_string(meshes) +
                        ", counted from 0, the finest");
-    return scene_->numbering[static_cast<std::size_t>(level)];
+    return level == 0 ? level0_ : scene_->numbering[static_cast<std::size_t>(level)];
+  }
+
+  /// Takes over the sizes of a body that was cut: its new vertices and points are the last ones.
+  void follow_cuts() {
+    const std::size_t cut = simulation_.twins().size(), count = simulation_.mesh().vertices.size();
+    if (cut == cut_) return;
+    cut_ = cut;
+    std::vector<int>& input = level0_.input.vertices;
+    for (std::size_t v = input.size(); !input.empty() && v < count; ++v)
+      input.push_back(static_cast<int>(v));
+    surface_points_ = simulation_.surface() ? simulation_.surface()->vertices.size() : 0;
+    leave_live();
   }
 
   void read(Field field, int level, Values& to) const override {
-    const bool of_surface = field == Field::surface_positions || field == Field::surface_velocities;
+    const bool of_surface = field != Field::positions && field != Field::velocities;
     const std::vector<int>& order = numbering(level).input.vertices;
     const std::size_t rows =
         of_surface ? surface_points_
@@ -256,6 +277,7 @@ class SimulationOf final : public AnySimulation {
     if (field == Field::velocities) simulation_.read_velocities(output, level);
     if (field == Field::surface_positions) simulation_.read_surface_positions(output);
     if (field == Field::surface_velocities) simulation_.read_surface_velocities(output);
+    if (field == Field::surface_normals) simulation_.read_surface_normals(output);
     Kokkos::fence("plica::read");
     Kokkos::deep_copy(host, rows);  // copies nothing if both are one view
   }
@@ -276,7 +298,8 @@ class SimulationOf final : public AnySimulation {
     request.exec.fence("plica::forces");
     const std::vector<int>& order = numbering(request.level).input.vertices;
     const auto here = [&](std::size_t i) {
-      return order.empty() ? i : static_cast<std::size_t>(order[i]);
+      return i < order.size() ? static_cast<std::size_t>(order[i])
+                              : i;  // vertices of a cut come last
     };
     const std::size_t n = request.rest.extent(0);
     Values x(3 * n), v(3 * n), f(3 * n);
@@ -295,7 +318,8 @@ class SimulationOf final : public AnySimulation {
   std::shared_ptr<const app::Scene> scene_;
   std::optional<CycleChoice> choice_;
   Simulation<B> simulation_;
-  std::size_t surface_points_;
+  app::Numbering level0_;  // numbering of level 0, with the vertices that cuts have added
+  std::size_t surface_points_, cut_ = 0;  // cut_: number of these
   ExternalForces<B> forces_;
   bool fresh_ = true, stepping_ = false;  // nothing has changed since the set-up; within step()
   std::optional<SavedState> start_;

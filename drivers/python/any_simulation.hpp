@@ -18,7 +18,7 @@ namespace plica::python {
 using Values = std::vector<double>;
 
 /// Fields that follow the simulation as live arrays, [rows][3].
-enum class Field { positions, velocities, surface_positions, surface_velocities };
+enum class Field { positions, velocities, surface_positions, surface_velocities, surface_normals };
 
 /// Function that adds to `forces` [N], from positions [m] and velocities [m/s] at a time [s]. All
 /// three arrays are [vertices][3].
@@ -71,6 +71,8 @@ class AnySimulation {
                                    const std::optional<Turn>& turn) = 0;
   /// Returns for each obstacle where its motion has it.
   virtual std::vector<ObstaclePlace> obstacles() const = 0;
+  /// Cuts the body, see Simulation::cut(). Arrays from before the cut stay as they are.
+  virtual CutReport cut(const Blade& blade) = 0;
   virtual void set_gravity(const Point& gravity) = 0;  ///< see Simulation::set_gravity()
   virtual void set_time(double time) = 0;              ///< see Simulation::set_time()
 
@@ -109,6 +111,8 @@ class AnySimulation {
   virtual void read(Field field, int level, Values& to) const = 0;
   /// Updates all live arrays to the present state.
   void refresh();
+  /// Leaves all live arrays as they are from now on: the body has other sizes.
+  void leave_live() { lives_.clear(); }
 
  private:
   struct Live {

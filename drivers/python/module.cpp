@@ -184,9 +184,17 @@ void bind_scene(nb::module_& m) {
              return nb::make_tuple(
                  file, array(app::in_input_order(numbering.vertex_ids, numbering.input.vertices)));
            })
-      .def("surface", [](const app::Scene& s) {
-        const auto& surface = s.problem.body.surface;
-        return surface ? array(surface->triangles) : nb::none();
+      .def("surface",
+           [](const app::Scene& s) {
+             const auto& surface = s.problem.body.surface;
+             return surface ? array(surface->triangles) : nb::none();
+           })
+      .def("texture", [](const app::Scene& s) {
+        Values values;
+        if (const auto& surface = s.problem.body.surface)
+          for (const CornerTexture& corners : surface->texture)
+            for (const auto& uv : corners) values.insert(values.end(), uv.begin(), uv.end());
+        return array(std::move(values));
       });
   m.def("load", &load, "file"_a, "json"_a, "name"_a, "overrides"_a);
   m.def("study", &study_of, "scene"_a, "budget"_a.none());
@@ -255,6 +263,7 @@ void bind_simulation(nb::module_& m) {
       .def("velocities", [](const H& s, int level) { return live(s, Field::velocities, level); })
       .def("surface_positions", [](const H& s) { return live(s, Field::surface_positions, 0); })
       .def("surface_velocities", [](const H& s) { return live(s, Field::surface_velocities, 0); })
+      .def("surface_normals", [](const H& s) { return live(s, Field::surface_normals, 0); })
       .def("element_fields",
            [](const H& s, int level) {
              ElementFields fields = s->element_fields(level, false);
@@ -333,6 +342,15 @@ void bind_simulation(nb::module_& m) {
                all.push_back(nb::make_tuple(o.name, vector_of(o.displacement),
                                             vector_of(o.rotation), vector_of(o.origin)));
              return all;
+           })
+      .def("cut",
+           [](const H& s, const std::vector<std::array<double, 9>>& triangles) {
+             Blade blade;
+             for (const auto& t : triangles)
+               blade.push_back({Point(&t[0]), Point(&t[3]), Point(&t[6])});
+             const CutReport report = s->cut(blade);
+             return nb::make_tuple(report.opened_faces, report.new_vertices, report.pieces,
+                                   report.seconds);
            })
       .def("set_gravity",
            [](const H& s, const std::array<double, 3>& g) {

@@ -8,6 +8,7 @@
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/body/body_parts.hpp>
+#include <plica/drivers/body/embed_free.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/body/selection.hpp>
@@ -28,6 +29,7 @@
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
+#include <plica/meshes/cut.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
@@ -85,6 +87,8 @@ class HierarchyBuilder {
     phase("planning the steps", [&] { plan(); });
     if (starts_deformed(problem_.body.initial)) deform();
     built_.stepper->start(*built_.hierarchy);
+    for (const auto& level : built_.hierarchy->levels)
+      follow_masters(built_.hierarchy->exec(), level.model, level.state);
     for (const auto& level : built_.hierarchy->levels) level.accept_state(0);
     return std::move(built_);
   }
@@ -203,6 +207,7 @@ class HierarchyBuilder {
     copy(built_.hierarchy->exec(), state.u,
          to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
     hold_sliding(built_.hierarchy->exec(), built_.hierarchy->levels.front(), state.u);
+    follow_masters(built_.hierarchy->exec(), built_.hierarchy->levels.front().model, state.u);
   }
 
   void report_mesh(std::size_t i) {
@@ -210,7 +215,10 @@ class HierarchyBuilder {
     LevelReport& report = built_.reports.emplace_back();
     report.vertices = static_cast<int>(mesh.vertices.size()),
     report.tets = static_cast<int>(mesh.tets.size());
-    if (!mesh.filled.empty()) {
+    if (!mesh.piece.empty()) {
+      report.kind = LevelKind::part;
+      report.pieces = piece_reports(mesh, constants_[i].density);
+    } else if (!mesh.filled.empty()) {
       TetMesh whole = mesh;
       whole.filled.clear();
       report.kind = LevelKind::lattice;
@@ -242,8 +250,9 @@ class HierarchyBuilder {
     constexpr double thick = 8;  // elements across
     if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))
       return BesideNodal::nothing;
-    // products in float know nothing of sliding vertices
-    if (!constants_[i].sliding.empty()) return BesideNodal::matrix;
+    // products in float know nothing of vertices that slide or follow others
+    if (!constants_[i].sliding.empty() || !built_.meshes[i].followers.vertex.empty())
+      return BesideNodal::matrix;
     const bool by_products = has_contact(problem_) ||
                              smooths_pressure(problem_.body, constants_[i].lame) ||
                              elements_across(built_.meshes[i]) >= thick;
@@ -272,9 +281,11 @@ class HierarchyBuilder {
   /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
   /// they turn with it.
   Embedding embed_surface(std::size_t i) const {
+    if (!problem_.body.surface_vertex.empty() && i == 0)
+      return embed_at_vertices(built_.meshes.front(), problem_.body.surface_vertex);
     constexpr double far = 10;  // edges; a coarse mesh may lie a little inside the surface
-    Embedding embedding = locators_[i]->embed(
-        surface_.vertices, parts_of_points(problem_.body.parts), Outside::extrapolate);
+    Embedding embedding = embed_free(built_.meshes[i], problem_.body.parts, *locators_[i],
+                                     surface_.vertices, parts_of_points(problem_.body.parts));
     if (embedding.largest_distance_over_edge > far)
       throw InputError("body.surface: " + std::to_string(embedding.misses) + " of its " +
                        std::to_string(surface_.vertices.size()) + " points lie outside level " +

@@ -5,6 +5,7 @@
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/elastic/fibres.hpp>
 #include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/join_bodies.hpp>
 
 namespace plica {
@@ -170,11 +171,25 @@ class Joiner {
     all.resize(before + count, none);
   }
 
+  /// Adds what a mesh has at borders between its pieces. Its first vertex becomes number `first`.
+  static void add_followers(const TetMesh& mesh, int first, TetMesh& to) {
+    const auto moved = [first](auto vertices) {
+      for (int& v : vertices) v += first;
+      return vertices;
+    };
+    for (const int v : mesh.followers.vertex) to.followers.vertex.push_back(v + first);
+    for (const auto& masters : mesh.followers.of) to.followers.of.push_back(moved(masters));
+    to.followers.weight.insert(to.followers.weight.end(), mesh.followers.weight.begin(),
+                               mesh.followers.weight.end());
+    for (const auto& face : mesh.inner_faces) to.inner_faces.push_back(moved(face));
+  }
+
   static void add_mesh(const std::string& name, const TetMesh& mesh, const Point& shift,
                        TetMesh& to) {
     const std::size_t before = to.tets.size(), count = mesh.tets.size();
     if (!to.filled.empty() || !mesh.filled.empty())
       append(to.filled, before, mesh.filled, count, 1.0);
+    if (!to.piece.empty() || !mesh.piece.empty()) append(to.piece, before, mesh.piece, count, 0);
     for (const auto& [field, vectors] : mesh.tet_vectors) to.tet_vectors.try_emplace(field);
     for (auto& [field, all] : to.tet_vectors) {
       const auto own = mesh.tet_vectors.find(field);
@@ -196,6 +211,7 @@ class Joiner {
         to.region_names.push_back(region.empty() ? name : name + "/" + region);
       for (const int region : mesh.region) to.region.push_back(region + regions);
     }
+    add_followers(mesh, vertices, to);
     for (const auto& [set, of] : mesh.vertex_sets) {
       std::vector<int>& moved = to.vertex_sets[set];
       for (const int v : of) moved.push_back(v + vertices);
@@ -266,12 +282,23 @@ class Joiner {
       for (int& p : t) p += points;
       all_.surface->triangles.push_back(t);
     }
+    std::vector<CornerTexture>& texture = all_.surface->texture;
+    if (texture.empty() && surface.texture.empty()) return;
+    texture.resize(all_.surface->triangles.size());  // 0 for bodies without
+    std::ranges::copy(surface.texture,
+                      texture.end() - static_cast<std::ptrdiff_t>(surface.texture.size()));
   }
 };
 
 }  // namespace
 
 Body join_bodies(const std::vector<NamedBody>& bodies) {
+  if (std::ranges::any_of(bodies,
+                          [](const NamedBody& one) { return !one.second.covers.empty(); })) {
+    std::vector<NamedBody> composed = bodies;
+    for (auto& [name, body] : composed) compose_levels(body);
+    return join_bodies(composed);
+  }
   expect_joinable(bodies);
   return Joiner(bodies).take();
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <limits>
 #include <optional>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/contact/contact.hpp>
@@ -74,7 +73,7 @@ class MotionCommands {
 
   /// Forgets all that is only needed to go back, and what is not yet applied again.
   void reset_history() {
-    forget_before(std::numeric_limits<double>::infinity());
+    initial_ = present();
     said_.clear(), next_ = 0;
   }
 

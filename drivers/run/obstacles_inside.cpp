@@ -30,7 +30,7 @@ std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem
       candidates.push_back(static_cast<int>(o));
   if (candidates.empty()) return inside;
   const std::vector<Point> x = simulation.positions();
-  const std::vector<std::array<int, 4>>& tets = problem.body.levels.front().tets;
+  const std::vector<std::array<int, 4>>& tets = simulation.mesh().tets;
   const Box around = bounding_box(x);
   for (const int o : candidates) {
     const Point origin = simulation.obstacle_origin(o);

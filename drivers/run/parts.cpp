@@ -85,6 +85,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
     kinds += std::string(i ? ", " : "") + name_of(element_of(body, i));
   add("elastic elements", true, body.material.model + "; " + kinds, "", sum([&](L& l) {
         archive.owns(l.model.patches, l.model.rows, l.model.float_rows, l.nodal, l.partial);
+        archive.owns(l.model.followers, l.model.shares.weight);
       }));
   add("state, mass and force", true, counted(levels, "level"), "",
       sum([&](L& l) { archive.owns(l.state, l.model.mass, l.model.inverse_mass, l.f); }));

@@ -39,6 +39,7 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
+#include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
@@ -53,6 +54,11 @@ constexpr double least_edge = 1e-3;
 
 /// Returns the problem that is stepped, which is checked.
 Problem steppable(const Problem& p, Validation validation) {
+  if (!p.body.covers.empty()) {
+    Problem composed = p;
+    compose_levels(composed.body);
+    return steppable(composed, validation);
+  }
   if (validation == Validation::needed) validate(p);
   if (p.integration.cycle == "auto")
     throw InputError(
@@ -105,9 +111,10 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
 
 template <class B>
 void Simulation<B>::step() {
+  if (impl_->step_start) impl_->keep(*impl_->step_start);
+  if (!impl_->problem.cuts.empty()) cut_ahead();
   Impl& s = *impl_;
   s.residual = 0;
-  if (s.step_start) s.keep(*s.step_start);
   const Kokkos::Timer timer;
   s.stepped([&] {
     if (s.control.halves() && (s.judges || s.control.divides())) return s.cover(false);

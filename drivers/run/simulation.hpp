@@ -9,6 +9,7 @@
 #include <plica/core/problem.hpp>
 #include <plica/core/reports.hpp>
 #include <plica/drivers/loads/external_forces.hpp>
+#include <plica/meshes/cut.hpp>
 #include <string>
 #include <vector>
 
@@ -162,6 +163,11 @@ class Simulation {
   /// view is [points][3], float or double, in any layout. The points move with level 0. Enqueues
   /// and does not wait. Throws InputError where the sizes differ.
   void read_surface_velocities(const DeviceOutput<B>& to) const;
+  /// Copies the unit normals at the embedded surface's points, where these are now, into a caller's
+  /// device view; see normals_of_points(). The view is [points][3], float or double, in any layout.
+  /// Enqueues and does not wait; the first call uploads the triangles. Throws InputError where the
+  /// sizes differ.
+  void read_surface_normals(const DeviceOutput<B>& to) const;
 
   /// Replaces level 0's state by positions [m] and velocities [m/s] from a caller's device views.
   /// The next cycle restricts it to the other levels. Enqueues and does not wait; cycle `him` is
@@ -212,12 +218,38 @@ class Simulation {
   /// no `grasp`.
   void release(int obstacle);
 
+  /// Cuts the body along faces of level 0, between two macro steps. Faces open between tetrahedra
+  /// whose centroids, where they are now, are on both sides of a triangle. Vertices split where
+  /// faces join their tetrahedra no longer, and both keep their velocity: mass, momentum and volume
+  /// stay, to rounding. Vertices at the front of the cut stay single. Waits.
+  ///
+  /// The level is built again from the mesh that is cut, with a new critical step; the macro step
+  /// stays. So views and vectors from before the cut are those of the body before it. New vertices
+  /// come after the others. Relaxing stresses, grasps and tools go on as they were. Contact and
+  /// implicit integrators forget the last step, as after set_state(): friction sticks anew.
+  ///
+  /// A cut that meets nothing returns 0 opened faces, and changes nothing. Throws InputError, and
+  /// changes nothing, where the cycle or the body cannot follow a cut, see refused_by_cuts(), and
+  /// where no stable step is left.
+  CutReport cut(const Blade& blade);
+  CutReport cuts() const;  ///< all cuts so far, also those of Problem::cuts
+  /// Returns level 0's mesh at rest, where it is placed. A cut replaces it.
+  const TetMesh& mesh() const;
+  /// Returns of each vertex that cuts have added to level 0 the vertex that it was before.
+  const std::vector<int>& twins() const;
+  /// Returns the embedded surface at rest; none: there is none. A cut adds both of its sides.
+  const std::optional<TriangleSurface>& surface() const;
+  /// Returns, of a body that was cut, the vertex of level 0 at each point of its boundary; empty:
+  /// it is whole. Points are those of surface(), where there is one. Cuts add points at the end.
+  const std::vector<int>& surface_vertices() const;
+
   /// Returns the positions of a level's vertices, in input order [m]. Waits.
   std::vector<Point> positions(int level = 0) const;
   /// Returns the velocities of a level's vertices, in input order [m/s]. Waits.
   std::vector<Point> velocities(int level = 0) const;
   std::vector<Point> surface_positions() const;   ///< positions of surface points [m]; waits
   std::vector<Point> surface_velocities() const;  ///< velocities of surface points [m/s]; waits
+  std::vector<Point> surface_normals() const;     ///< unit normals at surface points; waits
 
   /// Replaces level 0's displacements [m] and velocities [m/s], in input order. The next cycle
   /// restricts them to the other levels. Throws InputError where sizes differ or a number is not
@@ -237,7 +269,8 @@ class Simulation {
   /// step that passed check(). A caller saves what its own forces remember.
   SavedState save() const;
   /// Restores a saved state, and continues as the saved simulation would have. Results have the
-  /// same bits, given the same problem, precision and back end. Throws InputError for a state of
+  /// same bits, given the same problem, precision and back end. Cuts that the saved simulation has
+  /// made since are made again. Throws InputError for a state of
   /// other fields, sizes, precision or macro step, and then changes nothing. The state's numbers
   /// are not checked.
   void restore(const SavedState& saved);
@@ -269,6 +302,7 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 
   bool repair(const Diagnosis& bad);
+  void cut_ahead();
 };
 
 }  // namespace plica

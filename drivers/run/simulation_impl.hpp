@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <limits>
+#include <memory>
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/launch.hpp>
+#include <plica/drivers/loads/exchange.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/run/busy_cores.hpp>
 #include <plica/drivers/run/diagnose.hpp>
@@ -20,6 +22,14 @@ namespace plica {
 template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
+/// Problem of a body in which more faces are open; see the members of the same names below.
+struct OpenedBody {
+  Problem problem;  ///< with the meshes that are in use
+  std::vector<Faces> opened;
+  std::vector<int> twins;
+  CutReport report;
+};
+
 /// Data and functions of a simulation, for the sources that implement it.
 template <class B>
 struct Simulation<B>::Impl {
@@ -32,6 +42,10 @@ struct Simulation<B>::Impl {
   EnergyMeter<B> meter;
   // per level, rest positions of its vertices; empty until somebody has asked for positions
   std::vector<Vectors<B>> rest;
+  // Triangles around the embedded surface's points, and these points' positions; none until
+  // somebody has asked for normals
+  std::optional<SurfaceFans<B>> fans;
+  Vectors<B> surface_x;
   Reactions<B> held;
 
   // Present time and results
@@ -80,6 +94,15 @@ struct Simulation<B>::Impl {
 
   std::optional<SharedCores<B>> cores;  // only where cores are shared with other work
 
+  // Cuts, see simulation_cut.cpp: the faces that each has opened, what they came to, and of each
+  // new vertex the one that it was before
+  std::vector<Faces> opened;
+  CutReport cut_so_far;
+  std::vector<int> twins;
+  // time up to which blades have cut [s]: steps that are repeated do not cut again
+  double cut_until = -std::numeric_limits<double>::infinity();
+  ExternalForces<B> external;  // the caller's, see set_external_forces()
+
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
@@ -127,6 +150,13 @@ struct Simulation<B>::Impl {
   void accept_state();
   void restart();
   void open_budget();
+
+  // Cuts
+  OpenedBody with_open(const std::vector<Faces>& more) const;
+  std::unique_ptr<Impl> rebuilt(OpenedBody&& body);
+  std::unique_ptr<Impl> reopened(const std::vector<Faces>& saved);
+  void go_on_from(Impl& before);
+  Faces open_so_far() const;
 
   // Recovery
   std::optional<Diagnosis> cover(bool checks);

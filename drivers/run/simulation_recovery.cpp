@@ -7,6 +7,7 @@
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
+#include <plica/kernels/followers.hpp>
 
 namespace plica {
 
@@ -230,9 +231,11 @@ void Simulation<B>::Impl::restore_snapshot(Snapshot& to) {
   built.stepper->begin(hierarchy());
 }
 
-/// Makes everything follow level 0's state, which was replaced: other levels, snapshots, budget.
+/// Makes everything follow level 0's state, which was replaced: vertices that follow others, other
+/// levels, snapshots, budget.
 template <class B>
 void Simulation<B>::Impl::restart() {
+  follow_masters(hierarchy().exec(), level(0).model, level(0).state);
   hierarchy().clear_flags();
   hierarchy().reset_history();
   built.stepper->begin(hierarchy());
@@ -284,7 +287,7 @@ void Simulation<B>::set_time(double time) {
   s.accept_state();
   for (const auto& level : s.hierarchy().levels)
     if (level.viscosity) level.viscosity->set_time(time);
-  s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
+  s.time = s.cut_until = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
   s.hierarchy().reset_history();
   s.reset_snapshots();
 }

@@ -108,6 +108,7 @@ void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
   for (int i = 0; i < s.hierarchy().count(); ++i)
     s.hierarchy()[i].set_external(forces, s.rest_positions(i));
   if (forces) s.budget_known = false;
+  s.external = forces;
 }
 
 template <class B>
@@ -191,6 +192,18 @@ void Simulation<B>::read_surface_velocities(const DeviceOutput<B>& to) const {
 }
 
 template <class B>
+void Simulation<B>::read_surface_normals(const DeviceOutput<B>& to) const {
+  Impl& s = *impl_;
+  const LevelData<B>& finest = s.level(0);
+  if (!s.fans) {
+    s.fans = build_fans<B>(s.problem.body.surface.value_or(TriangleSurface{}));
+    s.surface_x = Vectors<B>("plica::surface.x", finest.surface.points);
+  }
+  read_surface<B>(s.hierarchy().exec(), finest.surface, finest.state, false, s.surface_x);
+  read_normals<B>(s.hierarchy().exec(), *s.fans, s.surface_x, to);
+}
+
+template <class B>
 void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities) {
   const State<B>& state = impl_->level(0).state;
   if (velocities.size() != positions.size())  // before anything is written
@@ -224,6 +237,12 @@ std::vector<Point> Simulation<B>::surface_velocities() const {
   const Vectors<B> v("plica::surface.v", impl_->level(0).surface.points);
   read_surface_velocities(v);
   return to_host<B>(impl_->hierarchy().exec(), v);
+}
+template <class B>
+std::vector<Point> Simulation<B>::surface_normals() const {
+  const Vectors<B> n("plica::surface.n", impl_->level(0).surface.points);
+  read_surface_normals(n);
+  return to_host<B>(impl_->hierarchy().exec(), n);
 }
 
 namespace {
@@ -279,9 +298,24 @@ void name_snapshot(Snapshot& kept, Archive<B>& archive) {
   kept.history.name_fields(archive);
 }
 
+/// Names the faces that each cut has opened. Returns them, or those that are read. A body that is
+/// whole has no such part.
+template <class B>
+std::vector<Faces> name_cuts(Archive<B>& archive, std::vector<Faces> opened) {
+  constexpr std::uint64_t mark = 0x6f70656e66616365;
+  if (!archive.part(mark, !opened.empty())) return {};
+  opened.resize(archive.count(opened.size()));
+  for (Faces& faces : opened) {
+    faces.resize(archive.count(faces.size()));
+    archive.number(faces.data(), faces.size() * sizeof(int));
+  }
+  return opened;
+}
+
 /// Names to the archive all that is carried from one macro step to the next, in a fixed order.
 template <class B, class Impl>
 void name_all(Impl& s, Archive<B>& archive) {
+  name_cuts<B>(archive, s.opened);
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.levels.size());
@@ -319,10 +353,16 @@ void Simulation<B>::restore(const SavedState& saved) {
   using Archive = Archive<B>;
   impl_->hierarchy().exec().fence("plica::restore");
   std::vector<unsigned char> bytes = saved.bytes;
-  for (const auto task : {Archive::Task::check, Archive::Task::restore}) {
-    Archive archive(task, bytes);
-    name_all<B>(*impl_, archive);
+  Archive faces(Archive::Task::restore, bytes), check(Archive::Task::check, bytes),
+      all(Archive::Task::restore, bytes);
+  std::unique_ptr<Impl> next = impl_->reopened(name_cuts<B>(faces, {}));  // none: has these cuts
+  name_all<B>(next ? *next : *impl_, check);
+  if (next) {
+    next->go_on_from(*impl_);
+    impl_ = std::move(next);
   }
+  name_all<B>(*impl_, all);
+  impl_->cut_until = impl_->time;
   if (const Contact<B>* contact = impl_->hierarchy()[0].contact())
     impl_->motions.restore_snapshot(*contact, impl_->time);
   if (impl_->motions.commanded()) impl_->budget_known = false;

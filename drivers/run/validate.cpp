@@ -14,6 +14,7 @@
 #include <plica/drivers/linear/linear_solver.hpp>
 #include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/spaces/coarse_spaces.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -243,6 +244,7 @@ void validate_mesh(const TetMesh& mesh, int level) {
     if (mesh.region[e] < 0 || mesh.region[e] >= regions)
       refuse(": tetrahedron " + std::to_string(e) + " is in region " +
              std::to_string(mesh.region[e]) + " of " + std::to_string(regions));
+  validate_pieces(mesh, level);
 }
 
 namespace {
@@ -294,7 +296,8 @@ void check_finest_level(const Body& body) {
     if (i == 0)
       finest = one;
     else if (covers_part(finest, one))
-      throw InputError("body.levels: " + compare_levels(finest, one, i).sentence);
+      throw InputError("body.levels: " + compare_levels(finest, one, i).sentence +
+                       ", or the key covers, which says that a level covers a part");
   }
 }
 
@@ -343,6 +346,9 @@ void validate_options(const Problem& problem, std::size_t levels) {
   check_values("contact", problem.contact);
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i)
     check_obstacle("contact.obstacles." + std::to_string(i), problem.contact.obstacles[i]);
+  for (std::size_t i = 0; i < problem.cuts.size(); ++i)
+    check_values("cuts." + std::to_string(i), problem.cuts[i]);
+  validate_cuts(problem);
   validate_methods(problem.integration, levels);
   if (problem.integration.cycle == "him")
     if (const std::string why = refused_by_him(problem); !why.empty()) throw InputError(why);
@@ -359,6 +365,8 @@ void validate_meshes(const Problem& problem) {
   check_points(body);
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
+  validate_parts(problem);
+  validate_cut_meshes(problem);
   validate_contact(problem);
   validate_cavities(problem);
   validate_rest(problem);
@@ -366,6 +374,11 @@ void validate_meshes(const Problem& problem) {
 }
 
 void validate(const Problem& problem) {
+  if (!problem.body.covers.empty()) {
+    Problem composed = problem;
+    compose_levels(composed.body);
+    return validate(composed);
+  }
   validate_options(problem, problem.body.levels.size());
   validate_meshes(problem);
 }

@@ -31,6 +31,17 @@ void validate_rest(const Problem& problem);
 /// far as is known before set-up.
 std::string refused_by_him(const Problem& problem);
 
+/// Returns why a problem's body cannot be cut, as a sentence with the option; empty: it can.
+std::string refused_by_cuts(const Problem& problem);
+/// Returns why a mesh of level 0 cannot be cut, as a sentence; empty: it can.
+std::string refused_by_cuts(const TetMesh& mesh);
+
+/// Checks the cuts of a problem, as far as that needs no mesh. Throws InputError.
+void validate_cuts(const Problem& problem);
+/// Checks that the body of a problem with cuts has a mesh and a surface that can be cut. Throws
+/// InputError.
+void validate_cut_meshes(const Problem& problem);
+
 /// Checks obstacles, bodies that touch each other, and attachments. Throws InputError.
 void validate_contact(const Problem& problem);
 
@@ -52,6 +63,12 @@ void validate_cavities(const Problem& problem);
 /// in range, finite places, positive volumes, every vertex used, a region for every tetrahedron.
 /// Throws InputError with level and number.
 void validate_mesh(const TetMesh& mesh, int level);
+
+/// Checks what a mesh says of its pieces and of vertices that follow others. Throws InputError.
+void validate_pieces(const TetMesh& mesh, int level);
+
+/// Checks what a body with a part that is finer cannot have. Throws InputError.
+void validate_parts(const Problem& problem);
 
 /// Returns a sentence for each obstacle that the body starts deep in: where and how deep. Throws
 /// InputError where an obstacle contains the whole body, or is inside it.

@@ -11,6 +11,7 @@
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/meshes/compare_levels.hpp>
+#include <plica/meshes/composite.hpp>
 
 namespace plica {
 
@@ -77,6 +78,31 @@ void doubt_regions(const Body& body, std::vector<std::string>& sentences) {
                            "stiff as linear ones; expected a region for 100 tetrahedra or more"));
 }
 
+// Warns of loads that act beside the border of a part, where displacements are the coarser mesh's
+void doubt_loads_at_border(const Body& body, std::vector<std::string>& sentences) {
+  TetMesh mesh = body.levels.front();
+  std::vector<char> near = follows_others(mesh);
+  if (near.empty() || body.loads.empty()) return;
+  const std::vector<char> follows = near;
+  for (const auto& tet : mesh.tets)
+    if (std::ranges::any_of(tet, [&](int v) { return follows[static_cast<std::size_t>(v)] != 0; }))
+      for (const int v : tet) near[static_cast<std::size_t>(v)] = 1;
+  for (const auto& masters : mesh.followers.of)
+    for (const int v : masters) near[static_cast<std::size_t>(v)] = 1;
+  add_regions(mesh, body.regions, 0);
+  for (std::size_t i = 0; i < body.loads.size(); ++i) {
+    const std::vector<int> chosen =
+        select_vertices(mesh, body.loads[i].where, {text("body.loads.", i), 0});
+    const auto count = std::ranges::count_if(
+        chosen, [&](int v) { return near[static_cast<std::size_t>(v)] != 0; });
+    if (count > 0)
+      sentences.push_back(text("body.loads.", i, ": ", count, " of its ", chosen.size(),
+                               " vertices are within an edge of the border of a part, where "
+                               "displacements are as exact as on the coarser mesh; expected loads "
+                               "further from it"));
+  }
+}
+
 // Warns of a tool that is lighter than what it touches: its own inertia then counts for nothing,
 // and contact accelerates it as nothing real.
 void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
@@ -133,6 +159,7 @@ std::vector<std::string> problem_warnings(const Problem& problem) {
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
   doubt_regions(problem.body, sentences);
+  doubt_loads_at_border(problem.body, sentences);
   doubt_tools(problem, sentences);
   doubt_integrator(problem, sentences);
   tell_of_rest(problem, sentences);

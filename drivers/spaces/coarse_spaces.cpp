@@ -267,7 +267,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   std::vector<int> all(mesh.vertices.size());
   std::iota(all.begin(), all.end(), 0);
   std::vector<int> rows = all;
-  if (options.slivers)
+  if (options.slivers && mesh.followers.vertex.empty())
     if (auto slivers = slivers_of(mesh, constrained, mass, K)) {
       rows = slivers->points;
       spaces.push_back(std::move(*slivers));
@@ -291,7 +291,8 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     rows = points[i];
     spaces.push_back({without_constrained(P, constrained, rows), rows, graphs[i].spacing});
   }
-  drop_constrained_rows(spaces.front().up, constrained);  // given motions are not interpolated
+  // given motions are not interpolated, nor are followers, which go where their masters are
+  drop_constrained_rows(spaces.front().up, given_or_following(mesh, constrained));
   return spaces;
 }
 
@@ -317,7 +318,7 @@ LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector
   below.made =
       coarse_spaces(coarsest.mesh, coarsest.constrained, {}, {}, {options.sizes, options.reach});
   for (const CoarseSpace& space : below.made) below.transfers.push_back(space.up);
-  if (!options.slivers) return below;
+  if (!options.slivers || !finest.mesh.followers.vertex.empty()) return below;
   if (auto slivers = slivers_of(finest.mesh, finest.constrained, mass, K)) {
     drop_constrained_rows(slivers->up, finest.constrained);
     below.transfers.front() = rows_of(below.transfers.front(), slivers->points);

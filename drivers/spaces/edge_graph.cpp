@@ -27,9 +27,31 @@ WaveQueue::WaveQueue(const EdgeGraph& graph) {
   waves_.resize(count), mask_ = count - 1;
 }
 
+namespace {
+
+/// Joins each vertex that follows others to its masters, and marks it.
+/// @param edges  edges of the mesh, ascending
+void join_followers(const TetMesh& mesh, EdgeGraph& graph, std::vector<std::array<int, 2>>& edges) {
+  const Followers& followers = mesh.followers;
+  if (followers.vertex.empty()) return;
+  graph.follows.resize(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < followers.vertex.size(); ++i) {
+    const int v = followers.vertex[i];
+    graph.follows[index_of(v)] = 1;
+    for (std::size_t c = 0; c < 4; ++c)
+      if (followers.weight[i][c] != 0)
+        edges.push_back({std::min(v, followers.of[i][c]), std::max(v, followers.of[i][c])});
+  }
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+}  // namespace
+
 EdgeGraph edge_graph(const TetMesh& mesh) {
-  const auto edges = mesh_edges(mesh);
+  auto edges = mesh_edges(mesh);
   EdgeGraph graph;
+  join_followers(mesh, graph, edges);
   graph.place = mesh.vertices;
   graph.first.assign(mesh.vertices.size() + 1, 0);
   for (const auto& edge : edges)
@@ -58,7 +80,8 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count,
                                  const std::vector<char>& apart) {
   std::vector<double> distance(index_of(graph.vertices()), unreached);
   std::vector<std::pair<double, int>> all;
-  for (int v = 0; v < graph.vertices(); ++v) all.emplace_back(unreached, v);
+  for (int v = 0; v < graph.vertices(); ++v)
+    if (graph.follows.empty() || !graph.follows[index_of(v)]) all.emplace_back(unreached, v);
   // Distances in this queue may be too large: they are compared with `distance` when removed
   std::priority_queue furthest(std::less<>(), std::move(all));
   std::vector<int> points;

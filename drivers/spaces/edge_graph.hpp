@@ -15,6 +15,8 @@ struct EdgeGraph {
   std::vector<int> neighbour;    ///< neighbours of each vertex, ascending
   std::vector<double> length;    ///< edge lengths, not below the straight distance [m]
   double mean = 0, longest = 0;  ///< mean and maximum of the edge lengths [m]
+  /// per vertex 1 where it follows others: paths lead over it, but it is no point. Empty: none does
+  std::vector<char> follows = {};
 
   /// Maximum ratio of a path along edges to the straight distance where the body fills the space
   /// between.
@@ -32,7 +34,8 @@ struct EdgeGraph {
   }
 };
 
-/// Returns the graph of the edges of a mesh.
+/// Returns the graph of the edges of a mesh. Vertices that follow others have edges to their
+/// masters, which join the pieces of the mesh.
 EdgeGraph edge_graph(const TetMesh& mesh);
 
 /// Graph of some vertices, the points, of a larger graph. Each point owns the vertices that are
@@ -149,7 +152,8 @@ class EdgeWalk {
 
 /// Returns vertices in an order in which each is the furthest, along edges, from all before it
 /// (Gonzalez 1985). The first n of them are therefore spread evenly for any n. Every connected part
-/// of a body gets one vertex before any part gets a second one.
+/// of a body gets one vertex before any part gets a second one. Vertices that follow others are
+/// left out.
 /// @param count  number of vertices to return, not counting those that are `apart`
 /// @param apart  per vertex nonzero if it may be chosen but is not counted; or empty
 std::vector<int> farthest_points(const EdgeGraph& graph, int count,

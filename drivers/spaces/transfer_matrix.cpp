@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <utility>
 #include <vector>
 
 namespace plica {
@@ -64,6 +65,25 @@ RowMatrix ring_smoothing(const TetMesh& mesh) {
   return S;
 }
 
+RowMatrix follower_matrix(const TetMesh& mesh) {
+  std::vector<std::vector<std::pair<int, double>>> rows(mesh.vertices.size());
+  for (std::size_t a = 0; a < rows.size(); ++a) rows[a] = {{static_cast<int>(a), 1.0}};
+  const Followers& followers = mesh.followers;
+  for (std::size_t i = 0; i < followers.vertex.size(); ++i) {
+    auto& row = rows[index_of(followers.vertex[i])];
+    row.clear();
+    for (std::size_t c = 0; c < 4; ++c)
+      if (followers.weight[i][c] != 0) row.emplace_back(followers.of[i][c], followers.weight[i][c]);
+    std::ranges::sort(row);
+  }
+  return matrix_of_rows(rows, static_cast<Eigen::Index>(rows.size()));
+}
+
+std::vector<char> given_or_following(const TetMesh& mesh, std::vector<char> constrained) {
+  for (const int v : mesh.followers.vertex) constrained[index_of(v)] = 1;
+  return constrained;
+}
+
 namespace {
 
 RowMatrix barycentric_transfer(const Embedding& up, std::size_t coarse_vertices) {
@@ -85,8 +105,10 @@ RowMatrix transfer_matrix(const TetMesh& fine, const std::vector<char>& fine_con
                           const Embedding& up, bool smooth) {
   RowMatrix P = barycentric_transfer(up, coarse.vertices.size());
   if (smooth) P = RowMatrix(ring_smoothing(fine) * P);
+  if (!coarse.followers.vertex.empty()) P = product(P, follower_matrix(coarse));
+  const std::vector<char> given = given_or_following(fine, fine_constrained);
   return some_entries(P, [&](Eigen::Index a, int b, double value) {
-    return !fine_constrained[static_cast<std::size_t>(a)] && !coarse_constrained[index_of(b)] &&
+    return !given[static_cast<std::size_t>(a)] && !coarse_constrained[index_of(b)] &&
            std::abs(value) > 1e-6;
   });
 }

@@ -17,6 +17,13 @@ namespace plica {
 /// than four neighbours, or whose |weights| would sum to more than 3, keep their value.
 RowMatrix ring_smoothing(const TetMesh& mesh);
 
+/// Returns the motion of all vertices from that of those which follow no others, [vertices x
+/// vertices]: the identity, but for the rows of followers, which have the weights of their masters.
+RowMatrix follower_matrix(const TetMesh& mesh);
+
+/// Returns per vertex nonzero where its motion is given, or follows that of others.
+std::vector<char> given_or_following(const TetMesh& mesh, std::vector<char> constrained);
+
 /// Copies a sparse matrix to the device. Rows are filled up with zeros to multiples of 4 entries.
 template <class B, class Value = typename B::Real>
 SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
@@ -42,7 +49,7 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
 
 /// Returns the transfer P from a coarse mesh to a fine one, [fine vertices x coarse vertices]. It
 /// has the weights of `up`, smoothed on the fine mesh if `smooth`. Rows and columns of vertices
-/// whose motion is given are empty; weights up to 1e-6 are left out.
+/// whose motion is given, or follows that of others, are empty; weights up to 1e-6 are left out.
 /// @param fine_constrained    per fine vertex, nonzero: its motion is given
 /// @param coarse_constrained  per coarse vertex, nonzero: its motion is given
 /// @param up                  embedding of the fine vertices in the coarse mesh

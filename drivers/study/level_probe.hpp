@@ -46,10 +46,12 @@ class LevelProbe {
       return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
     };
     const auto first = host(level.model.shares.first), copy = host(level.model.shares.row);
+    const auto weight = host(level.model.shares.weight);
     std::vector<Point> q(p.size(), Point::Zero());
     for (std::size_t a = 0; a < q.size(); ++a)
       for (int s = first(a); s < first(a + 1); ++s)
-        q[a] -= shares[static_cast<std::size_t>(copy(s))];
+        q[a] -= (weight.extent(0) > 0 ? static_cast<double>(weight(s)) : 1.0) *
+                shares[static_cast<std::size_t>(copy(s))];
     return q;
   }
 

@@ -245,6 +245,9 @@ std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOpti
 }
 
 void check_study(const Problem& problem, const StudyOptions& options) {
+  if (!problem.cuts.empty())
+    throw InputError(
+        "cuts: a study compares states of one mesh; expected a scene without them, or plica run");
   check_variants(problem, options);
   chosen_methods(problem, options);
 }

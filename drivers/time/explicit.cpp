@@ -64,6 +64,7 @@ class CentralDifferenceStep final : public Integrator<B> {
       level.evaluate(level.state, time + (s + 1) * h, f_, contact, s + 1 < steps ? h : h / 2);
       update_vertices<B>(level.exec(), "plica::kick", n,
                          HalfKick<B>{level.model, f_, level.state.v, half});
+      follow_masters(level.exec(), level.model, level.state.v);
     }
   }
 

@@ -86,7 +86,7 @@ class RestStep final : public ImplicitStep<B> {
       if (!solved || runs_away) ++failures;
       before = left;
       adapt(level, solved, way);
-      if (k == 0) part_ = 0;  // its way is mostly that of obstacles
+      if (k == 0) part_ = 0;  // the first stage's way is mostly that of obstacles
     }
     find_worst(level);
     stop(level);

@@ -174,12 +174,6 @@ class StageSolver {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
   }
 
-  /// Returns whether a system has only inertia and the elements' stiffness.
-  static bool is_stiffness_alone(const Level<B>& level) {
-    return !level.contact() && !level.has_stiff_terms() && !level.viscosity &&
-           level.model.patches.damping.extent(0) == 0;
-  }
-
   bool solve_stage(Level<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     if (touches(level) || iterates()) return minimise(level, time, ahead, weights);
     level.linearise(level.state, time, weights, ahead, level.f);
@@ -205,12 +199,13 @@ class StageSolver {
     if (from_start) {
       gap = change_;
       update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, gap});
+      follow_masters(level.exec(), level.model, gap);
     }
     SolveOutcome out;
     level.timed("solve", [&] {
       if (projected) level.keep_tangents();
       solver_->prepare(level, level.state, w, projected);
-      if (from_start && !projected && is_stiffness_alone(level))
+      if (from_start && !projected && level.is_stiffness_alone())
         by_product = solver_->multiply(level.exec(), gap, right_side_);
     });
     if (from_start && !by_product) {
@@ -230,7 +225,7 @@ class StageSolver {
     hold_sliding(level.exec(), level, change_);
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
-    update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
+    update(level, w);
     if (carries()) {
       copy(level.exec(), last_carried_, carried_);
       level.elasticity().carry_dilatations(level.exec(), level, level.state.u, change_);
@@ -277,11 +272,8 @@ class StageSolver {
     const double first = now.residual;
     const int most = iterates() ? options_.newton_iterations : contact_iterations;
     const bool once = !solver_->converges() && touches(level);
-    // The change is 0: this only makes the displacements of the stage consistent with its
-    // velocities
-    if (now.solved)
-      update_vertices<B>(level.exec(), "plica::stage_update", level.model.vertices,
-                         StageUpdate<B>{at(level, w), change_});
+    // The change is 0: this only makes displacements consistent with the stage's velocities
+    if (now.solved) update(level, w);
     double tolerance = carries() ? options_.relative_residual : first_tolerance * finer();
     for (int k = 0; k < most && !now.solved; ++k) {
       ++newtons_;
@@ -440,9 +432,17 @@ class StageSolver {
     return now;
   }
 
+  /// Changes the state by a solution, which becomes the change of displacement.
+  void update(const Level<B>& level, const ImplicitWeights& w) const {
+    update_vertices<B>(level.exec(), "plica::stage_update", level.model.vertices,
+                       StageUpdate<B>{at(level, w), change_});
+    follow_masters(level.exec(), level.model, level.state);
+    follow_masters(level.exec(), level.model, change_);
+  }
   void retreat(const Level<B>& level, const ImplicitWeights& w, double part) const {
     update_vertices<B>(level.exec(), "plica::stage_retreat", level.model.vertices,
                        StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
+    follow_masters(level.exec(), level.model, level.state);
   }
 
   /// Takes back `part` of the last change, which is all that is left of it.

@@ -30,6 +30,8 @@ struct SystemProduct {
 
 /// Sets one column of the vertex blocks of A: (1 + b c) m on the diagonal, plus a times column
 /// `direction` of the stiffness' own block. It sets the rows of the diagonal and the next (cyclic).
+/// A vertex that others follow adds their blocks, each times its squared weight. What couples two
+/// of its followers is left out.
 template <class B>
 struct DiagonalColumn {
   using Real = typename B::Real;
@@ -40,10 +42,18 @@ struct DiagonalColumn {
   int direction;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, i);
+    const Vec3<Real> sum = sum_of_blocks(i);
     diagonal(i, direction) = (1 + b * model.damping(i)) * model.mass(i) + a * sum[direction];
     const int beside = direction == 0 ? 3 : direction == 1 ? 5 : 4;
     diagonal(i, beside) = a * sum[(direction + 1) % 3];
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> sum_of_blocks(int i) const {
+    const VertexShares<B>& shares = model.shares;
+    if (shares.weight.extent(0) == 0) return sum_of_shares<B>(shares, partial, i);
+    Vec3<Real> sum;
+    for (int s = shares.first(i); s < shares.first(i + 1); ++s)
+      sum += (shares.weight(s) * shares.weight(s)) * vector_at<B>(partial, shares.row(s));
+    return sum;
   }
 };
 

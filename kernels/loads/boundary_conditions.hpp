@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/level_data.hpp>
 #include <plica/core/path.hpp>
+#include <plica/kernels/followers.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // Boundary conditions: vertices that follow a path, or slide, and loads.
@@ -157,7 +158,8 @@ void hold_sliding(const typename B::Exec& exec, const LevelData<B>& level, const
 }
 
 /// Puts the vertices whose motion is given into a level's state at a time [s]; see path_step() for
-/// `ahead`. Sliding vertices keep their displacement and velocity across what holds them.
+/// `ahead`. Sliding vertices keep their displacement and velocity across what holds them. Followers
+/// go where their masters are: every integrator calls this after each update of a state.
 template <class B>
 void prescribe(const typename B::Exec& exec, const LevelData<B>& level, const State<B>& state,
                double time, double ahead = 0) {
@@ -165,6 +167,7 @@ void prescribe(const typename B::Exec& exec, const LevelData<B>& level, const St
   if (level.prescribed.count > 0)
     update_vertices<B>(exec, "plica::prescribe", level.prescribed.count,
                        PrescribeMotion<B>{level.prescribed, state, time, ahead});
+  follow_masters(exec, level.model, state);
 }
 
 /// Adds factor * the load's forces to f, vertex by vertex.

@@ -23,7 +23,7 @@ struct Costa : Isochoric<Costa> {
   static constexpr bool has_fibres = true;
   static constexpr std::array parameters{
       MaterialParameter{
-          "a", {keys::pressure, keys::positive}, "of costa: times half the exponential", 2e3},
+          "a", {keys::pressure, keys::stiffness}, "of costa: times half the exponential", 2e3},
       parameter::strain_weight("b_ff", "of costa: times the square of the strain along the fibres",
                                8),
       parameter::strain_weight("b_ss", "of costa: along the sheet", 3),

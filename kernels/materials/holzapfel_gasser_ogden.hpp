@@ -18,7 +18,7 @@ struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
   static constexpr bool has_fibres = true;
   static constexpr std::array parameters{
       MaterialParameter{"c",
-                        {keys::pressure, keys::positive},
+                        {keys::pressure, keys::stiffness},
                         "of holzapfel_gasser_ogden: mu of the matrix",
                         5e3},
       MaterialParameter{"k1",

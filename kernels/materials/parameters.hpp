@@ -8,7 +8,7 @@ namespace plica {
 /// Parameters of materials that are options of every body.
 namespace parameter {
 inline constexpr MaterialParameter young_modulus{
-    "young_modulus", {keys::pressure, keys::positive}, "stiffness E", 20e3};
+    "young_modulus", {keys::pressure, keys::stiffness}, "stiffness E", 20e3};
 inline constexpr MaterialParameter poisson_ratio{
     "poisson_ratio",
     {keys::plain, {.min = 0, .max = 0.5, .max_excluded = true}},
@@ -17,11 +17,11 @@ inline constexpr MaterialParameter poisson_ratio{
 // Parameters that several laws of tissue have in common
 inline constexpr MaterialParameter bulk_modulus{
     "bulk_modulus",
-    {keys::pressure, keys::positive},
+    {keys::pressure, keys::stiffness},
     "of laws of tissue: kappa, stiffness of the volume at rest",
     33e3};
 inline constexpr MaterialParameter mu{"mu",
-                                      {keys::pressure, keys::positive},
+                                      {keys::pressure, keys::stiffness},
                                       "shear stiffness; of fibrous laws that of the matrix",
                                       5e3};
 inline constexpr MaterialParameter c10{

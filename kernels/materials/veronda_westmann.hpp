@@ -11,7 +11,7 @@ struct VerondaWestmann : InvariantLaw<VerondaWestmann> {
   static constexpr const char* summary = "skin and liver: stiffens exponentially with I1";
   static constexpr std::array parameters{
       MaterialParameter{"c1",
-                        {keys::pressure, keys::positive},
+                        {keys::pressure, keys::stiffness},
                         "of veronda_westmann: times the exponential",
                         3.5e3},
       MaterialParameter{"c2",

@@ -148,7 +148,11 @@ WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh,
 
 WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
                           const std::string& format, bool binary) {
-  return writer_of(path, surface_writers, "surface", format, binary).write(path, surface);
+  const SurfaceWriter& writer = writer_of(path, surface_writers, "surface", format, binary);
+  WrittenMesh written = writer.write(path, surface);
+  if (!surface.texture.empty() && writer.write != write_obj)
+    written.left_out.push_back("the texture coordinates are left out: this format has none");
+  return written;
 }
 
 }  // namespace plica

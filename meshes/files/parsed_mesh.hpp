@@ -86,6 +86,7 @@ struct RawPolygon {
   std::int64_t tag = 0;
   std::vector<std::int64_t> corners;  ///< tags of vertices
   Place place;
+  std::vector<int> texture = {};  ///< per corner as in ParsedMesh::triangle_texture; empty: none
 };
 
 /// Invalid faces of a surface.
@@ -143,9 +144,12 @@ struct ParsedMesh {
   std::vector<RawTet> tets;
   /// begin and end of the tetrahedra of each cell that was cut: indices in `tets`, in turns
   std::vector<std::size_t> cut;
-  std::vector<RawTriangle> triangles;     ///< triangles of a surface; only checked for a mesh
-  std::vector<RawPolygon> polygons;       ///< polygons of a surface; only checked for a mesh
-  BadFaces bad_faces;                     ///< invalid faces, left out
+  std::vector<RawTriangle> triangles;          ///< triangles of a surface; only checked for a mesh
+  std::vector<RawPolygon> polygons;            ///< polygons of a surface; only checked for a mesh
+  BadFaces bad_faces;                          ///< invalid faces, left out
+  std::vector<std::array<double, 2>> texture;  ///< texture coordinates u, v; empty: none
+  /// per triangle the index in `texture` of each corner, -1 for a corner without; empty: none
+  std::vector<std::array<int, 3>> triangle_texture;
   std::vector<std::string> region_names;  ///< unique; empty: one nameless region
   std::vector<std::int64_t> region_tags;  ///< numbers of the regions in the file
   std::vector<RawNumbers> numbers;        ///< numbers of which choose_regions() takes one

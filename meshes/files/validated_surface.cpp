@@ -19,6 +19,12 @@ constexpr std::int64_t most_bad_faces = 100;  // one face in this many may be in
 
 using Triangle = std::array<int, 3>;
 
+// Corner of a face: its vertex, and the index of its texture coordinates, -1 without any
+struct FaceCorner {
+  int vertex;
+  int texture;
+};
+
 class SurfaceMaker {
  public:
   SurfaceMaker(const ParsedMesh& raw, TriangleSurface& surface, SurfaceReport& report)
@@ -31,11 +37,15 @@ class SurfaceMaker {
   void make() {
     for (const RawMention& mention : raw_.others)
       numbering_.at(mention.vertex, mention.place, [] { return std::string("an element"); });
-    for (const RawTriangle& t : raw_.triangles)
-      if (const auto v = corners(t.tag, t.vertices, t.place))
+    for (std::size_t i = 0; i < raw_.triangles.size(); ++i) {
+      const RawTriangle& t = raw_.triangles[i];
+      std::span<const int> texture;
+      if (!raw_.triangle_texture.empty()) texture = raw_.triangle_texture[i];
+      if (const auto v = corners(t.tag, t.vertices, texture, t.place))
         triangle((*v)[0], (*v)[1], (*v)[2], t.tag, t.place);
+    }
     for (const RawPolygon& p : raw_.polygons)
-      if (const auto v = corners(p.tag, p.corners, p.place)) polygon(*v, p);
+      if (const auto v = corners(p.tag, p.corners, p.texture, p.place)) polygon(*v, p);
     const auto faces = static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size()) +
                        raw_.bad_faces.count;
     if (bad_.count * most_bad_faces > faces || (surface_.triangles.empty() && bad_.count > 0))
@@ -51,41 +61,51 @@ class SurfaceMaker {
   }
 
  private:
-  std::optional<std::vector<int>> corners(std::int64_t tag, std::span<const std::int64_t> tags,
-                                          const Place& place) {
+  std::optional<std::vector<FaceCorner>> corners(std::int64_t tag,
+                                                 std::span<const std::int64_t> tags,
+                                                 std::span<const int> texture, const Place& place) {
     const auto who = [&] {
       return (tags.size() == 3 ? "triangle " : "face ") + std::to_string(tag);
     };
-    std::vector<int> v;
-    for (const std::int64_t one : tags) {
-      v.push_back(numbering_.find(one));
-      if (v.back() >= 0) continue;
-      bad_.add(place,
-               who() + " names node " + std::to_string(one) + ", which the file does not define");
+    std::vector<FaceCorner> v;
+    for (std::size_t k = 0; k < tags.size(); ++k) {
+      v.push_back({numbering_.find(tags[k]), texture.empty() ? -1 : texture[k]});
+      if (v.back().vertex >= 0) continue;
+      bad_.add(place, who() + " names node " + std::to_string(tags[k]) +
+                          ", which the file does not define");
       return {};
     }
     return v;
   }
 
-  const Point& at(int v) const { return surface_.vertices[static_cast<std::size_t>(v)]; }
+  const Point& at(const FaceCorner& c) const {
+    return surface_.vertices[static_cast<std::size_t>(c.vertex)];
+  }
+  std::array<double, 2> texture_at(const FaceCorner& c) const {
+    const auto i = static_cast<std::size_t>(c.texture);
+    return c.texture >= 0 && i < raw_.texture.size() ? raw_.texture[i] : std::array{0.0, 0.0};
+  }
+  static bool same(const FaceCorner& a, const FaceCorner& b) { return a.vertex == b.vertex; }
 
-  void triangle(int a, int b, int c, std::int64_t tag, const Place& place) {
-    if (a == b || b == c || c == a) {
+  void triangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, std::int64_t tag,
+                const Place& place) {
+    if (same(a, b) || same(b, c) || same(c, a)) {
       ++report_.collapsed;
       return;
     }
     const Point ab = at(b) - at(a), ac = at(c) - at(a);
     const double longest = std::max({ab.norm(), ac.norm(), (at(c) - at(b)).norm()});
-    if (ab.cross(ac).norm() > flat_triangle * longest * longest)
-      surface_.triangles.push_back({a, b, c});
-    else
-      bad_.add(place,
-               "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
+    if (!(ab.cross(ac).norm() > flat_triangle * longest * longest))
+      return bad_.add(
+          place, "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
+    surface_.triangles.push_back({a.vertex, b.vertex, c.vertex});
+    if (!raw_.texture.empty())
+      surface_.texture.push_back({texture_at(a), texture_at(b), texture_at(c)});
   }
 
   // Returns the normal of a triangle, twice its area long. Its corners are `first` and those k and
   // k + 1 after it.
-  Point area(const std::vector<int>& v, std::size_t first, std::size_t k) const {
+  Point area(const std::vector<FaceCorner>& v, std::size_t first, std::size_t k) const {
     const auto corner = [&](std::size_t i) -> const Point& {
       return at(v[(first + i) % v.size()]);
     };
@@ -94,9 +114,9 @@ class SurfaceMaker {
 
   // Cuts a polygon into triangles that all look to one side, from the first corner for which that
   // is possible
-  void polygon(std::vector<int> v, const RawPolygon& face) {
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-    while (v.size() > 1 && v.front() == v.back()) v.pop_back();
+  void polygon(std::vector<FaceCorner> v, const RawPolygon& face) {
+    v.erase(std::unique(v.begin(), v.end(), same), v.end());
+    while (v.size() > 1 && same(v.front(), v.back())) v.pop_back();
     if (v.size() < 3) {
       ++report_.collapsed;
       return;
@@ -141,10 +161,14 @@ void drop_repeats(TriangleSurface& surface, SurfaceReport& report) {
   for (std::size_t k = 1; k < order.size(); ++k)
     again[order[k]] = key(order[k]) == key(order[k - 1]);
   std::size_t kept = 0;
-  for (std::size_t t = 0; t < again.size(); ++t)
-    if (!again[t]) surface.triangles[kept++] = surface.triangles[t];
+  for (std::size_t t = 0; t < again.size(); ++t) {
+    if (again[t]) continue;
+    if (!surface.texture.empty()) surface.texture[kept] = surface.texture[t];
+    surface.triangles[kept++] = surface.triangles[t];
+  }
   report.repeated = static_cast<int>(surface.triangles.size() - kept);
   surface.triangles.resize(kept);
+  if (!surface.texture.empty()) surface.texture.resize(kept);
 }
 
 void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
@@ -190,8 +214,10 @@ TriangleSurface validated_surface(const ParsedMesh& raw, const MeshReport& found
   }
   report.parts = count_parts(surface);
   report.turned = report.closed() && enclosed_volume(surface) < 0.0;
-  if (report.turned)
+  if (report.turned) {
     for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+    for (CornerTexture& corners : surface.texture) std::swap(corners[1], corners[2]);
+  }
   return surface;
 }
 

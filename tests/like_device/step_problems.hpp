@@ -6,6 +6,7 @@
 #include <plica/meshes/generators.hpp>
 
 #include "support/bodies.hpp"
+#include "support/composite_box.hpp"
 
 // What the tests of whole steps step.
 namespace plica::test {
@@ -91,6 +92,14 @@ inline Problem driven(const std::string& cycle, const std::string& integrator) {
   return p;
 }
 
+/// A beam whose finer half follows the coarser one at their border.
+inline Problem pieces() {
+  Problem p = thrown("single", 1, "nodal");
+  p.body.levels = {composite_beam(false)};
+  p.body.surface = boundary_surface(box_mesh(beam_box, {16, 4, 4})).surface;
+  return p;
+}
+
 struct StepProblem {
   const char* name;
   Problem (*make)();
@@ -99,6 +108,7 @@ struct StepProblem {
 inline std::vector<StepProblem> step_problems() {
   return {{"explicit", [] { return thrown("single", 1, "linear"); }},
           {"viscous", &viscous},
+          {"pieces", &pieces},
           {"rsv", [] { return thrown("rsv", 3, "nodal"); }},
           {"fas", [] { return thrown("fas", 3, "linear"); }},
           {"him", &by_him},

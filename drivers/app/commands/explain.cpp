@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/explain.hpp>
@@ -38,7 +40,7 @@ void check_its_study(const Scene& scene) {
 std::string used_levels(const Scene& scene, std::size_t used) {
   const std::string levels = counted(static_cast<long>(used), "level"),
                     &cycle = scene.problem.integration.cycle;
-  const std::size_t given = scene.levels.size();
+  const std::size_t given = count_levels(scene.levels);
   if (cycle == "auto") return fmt::format("{} given", counted(static_cast<long>(given), "level"));
   return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given)
                       : levels;

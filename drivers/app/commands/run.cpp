@@ -97,6 +97,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.tools = simulation.tools();
   summary.held = simulation.held();
   summary.penetrations = output.penetrations();
+  if (!scene.problem.cuts.empty()) summary.cuts = simulation.cuts();
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
   for (const std::string& sentence : step_advice(scene, simulation, summary))
@@ -115,7 +116,9 @@ std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene,
   const std::vector<Point> positions = simulation.positions(diagnosis.level);
   if (diagnosis.element < 0) return {positions.at(static_cast<std::size_t>(diagnosis.vertex))};
   std::vector<Point> corners;
-  const TetMesh& mesh = scene.problem.body.levels[static_cast<std::size_t>(diagnosis.level)];
+  const TetMesh& mesh = diagnosis.level == 0
+                            ? simulation.mesh()
+                            : scene.problem.body.levels[static_cast<std::size_t>(diagnosis.level)];
   for (const int v : mesh.tets[static_cast<std::size_t>(diagnosis.element)])
     corners.push_back(positions[static_cast<std::size_t>(v)]);
   return corners;

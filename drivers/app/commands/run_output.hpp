@@ -42,12 +42,15 @@ class Probes {
   /// Starts the file, or continues it after its first `kept` bytes.
   Probes(const Scene& scene, const std::filesystem::path& file,
          std::optional<std::uint64_t> kept = {})
-      : points_(scene.problem.body.levels.front(), points_of(scene.output.probes)),
+      : asked_(points_of(scene.output.probes)),
+        points_(scene.problem.body.levels.front(), asked_),
         placement_(placement_of(scene.problem.body)),
         file_(kept ? GrowingFile(file, *kept)
                    : GrowingFile(file, probe_head(names_of(scene.output.probes)))) {}
 
   void write(const Simulation<B>& simulation, double time) {
+    if (const std::size_t cut = simulation.twins().size(); cut > cut_)
+      points_ = MaterialPoints<B>(simulation.mesh(), asked_), cut_ = cut;
     auto [positions, velocities] =
         points_.sample({}, simulation.displacement(), simulation.velocity());
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -58,7 +61,9 @@ class Probes {
   const GrowingFile& file() const { return file_; }
 
  private:
+  std::vector<Point> asked_;
   MaterialPoints<B> points_;
+  std::size_t cut_ = 0;  // number of vertices that cuts had added when points_ was made
   Point placement_;
   GrowingFile file_;
 };
@@ -211,6 +216,7 @@ class RunOutput {
       depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths),
                   simulation_.pair_depth());
     }
+    files_.follow_cuts(simulation_);
     files_.write(now);
     for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))
       if (warned_.insert(name).second)

@@ -104,6 +104,12 @@ std::uint64_t mesh_digest(const Body& body) {
     digest.add(mesh.tets);
     digest.add(mesh.region);
     digest.add(mesh.filled);
+    if (!mesh.piece.empty()) {
+      digest.add(mesh.piece);
+      digest.add(mesh.followers.vertex);
+      digest.add(mesh.followers.of);
+      digest.add(mesh.followers.weight);
+    }
     for (const std::string& name : mesh.region_names) digest.add(name);
     for (const auto& [name, vertices] : mesh.vertex_sets) digest.add(name), digest.add(vertices);
     for (const auto& [name, set] : mesh.triangle_sets) digest.add(name), digest.add(set);

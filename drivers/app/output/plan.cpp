@@ -115,6 +115,19 @@ std::string spaces_text(const Plan& plan) {
   return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0\n" + text_table(rows, ">>>>");
 }
 
+// Returns the table of the pieces of levels that are finer in a part of the body
+std::string pieces_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> rows = {
+      {"level", "piece", "tetrahedra", "followers", "cut", "least filled", "mass"}};
+  for (std::size_t i = 0; i < plan.levels.size(); ++i)
+    for (const PieceReport& piece : plan.levels[i].pieces)
+      rows.push_back({std::to_string(i), std::to_string(&piece - plan.levels[i].pieces.data()),
+                      std::to_string(piece.tets), std::to_string(piece.followers),
+                      std::to_string(piece.cut), fmt::format("{:.2g}", piece.least_filled),
+                      in_units(piece.mass, "kg")});
+  return rows.size() == 1 ? "" : "\nPieces of levels, finest first\n" + text_table(rows, ">>>>>>>");
+}
+
 // Returns two tables: the sizes of the levels, then their work in a macro step
 std::string levels_text(const Scene& scene, const Plan& plan) {
   std::vector<std::vector<std::string>> meshes = {
@@ -139,8 +152,8 @@ std::string levels_text(const Scene& scene, const Plan& plan) {
                      fmt::format("{:.2f}", substep / level.critical_step),
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
-  const std::string list =
-      "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
+  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") +
+                           pieces_text(plan) + spaces_text(plan);
   if (plan.him) return list + inertia_text(scene, plan);
   return list + "\nIn a macro step (the coarsest level goes first)\n" +
          text_table(steps, ">>>>>><");

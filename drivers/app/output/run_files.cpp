@@ -13,6 +13,7 @@
 #include <plica/drivers/elastic/fibres.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/cut.hpp>
 
 namespace plica::app {
 
@@ -192,7 +193,8 @@ std::string volume_name(int level) {
 std::vector<int> written_levels(const Scene& scene) {
   const VolumeLevels& chosen = scene.output.volume;
   if (!chosen.all) return chosen.levels;
-  std::vector<int> levels(integrated_levels(scene.problem.integration.cycle, scene.levels.size()));
+  std::vector<int> levels(
+      integrated_levels(scene.problem.integration.cycle, count_levels(scene.levels)));
   std::iota(levels.begin(), levels.end(), 0);
   return levels;
 }
@@ -266,6 +268,30 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder,
   }
 }
 
+// A body that is cut is not moved to its place, so that the mesh is that of the scene
+void RunFiles::take_cut(const TetMesh& mesh, const std::optional<TriangleSurface>& surface,
+                        const std::vector<int>& surface_vertices) {
+  TetMesh& own = body_.levels.front();
+  own.vertices = mesh.vertices, own.tets = mesh.tets;
+  std::vector<int>& input = numbering_.front().input.vertices;
+  for (std::size_t v = input.size(); !input.empty() && v < own.vertices.size(); ++v)
+    input.push_back(static_cast<int>(v));
+  for (std::size_t i = 0; i < volumes_.size(); ++i)
+    if (volume_levels_[i] == 0)
+      volumes_[i] = {in_input_order(own, numbering_.front()),
+                     in_input_order(vertex_masses(body_), input)};
+  if (surface) {
+    skin_ = *surface;
+  } else {
+    for (std::size_t p = skin_vertex_.size(); p < surface_vertices.size(); ++p) {
+      skin_vertex_.push_back(surface_vertices[p]);
+      skin_.vertices.push_back(own.vertices[static_cast<std::size_t>(surface_vertices[p])]);
+    }
+    follow_cut(own, skin_, skin_vertex_);
+  }
+  history_.set_masses(vertex_masses(body_));
+}
+
 void RunFiles::write(const Snapshot& snapshot) {
   surface_frames_.write(surface_grid(snapshot));
   for (std::size_t i = 0; i < volume_frames_.size(); ++i)
@@ -287,6 +313,22 @@ void RunFiles::sync() {
   history_.file().sync();
 }
 
+namespace {
+
+/// Returns u and v of each point, of the last triangle around it: [points][2]. They are 0 where the
+/// surface has no texture, as after a cut.
+std::vector<double> texture_of_points(const TriangleSurface& surface) {
+  std::vector<double> values(2 * surface.vertices.size(), 0.0);
+  if (surface.texture.size() != surface.triangles.size()) return values;
+  for (std::size_t t = 0; t < surface.texture.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      std::ranges::copy(surface.texture[t][k],
+                        values.begin() + 2 * std::ptrdiff_t{surface.triangles[t][k]});
+  return values;
+}
+
+}  // namespace
+
 VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   const bool embedded = skin_vertex_.empty();
   VtuGrid grid;
@@ -301,6 +343,10 @@ VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
     pressure.resize(grid.points.size());
     grid.point_scalars.emplace_back(contact_pressure_field, std::move(pressure));
   }
+  if (output_.writes(normals_field))
+    grid.point_fields.push_back({normals_field, normals_of_points({grid.points, skin_.triangles})});
+  if (output_.writes(texture_field))
+    grid.point_scalars.emplace_back(texture_field, texture_of_points(skin_), 2);
   if (!skin_body_.empty()) grid.cell_fields.push_back({"body", skin_body_});
   return grid;
 }

@@ -106,6 +106,8 @@ class History {
   History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
           std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
+  /// Sets the masses of a body that was cut [kg].
+  void set_masses(std::vector<double> masses) { masses_ = std::move(masses); }
   GrowingFile& file() { return file_; }
   const GrowingFile& file() const { return file_; }
 
@@ -135,6 +137,13 @@ class RunFiles {
            const std::optional<FilesMark>& from = {});
   /// Writes a frame of the surface, one of each level of volumes(), and a row of the history.
   void write(const Snapshot& snapshot);
+  /// Takes over the mesh and the surface of a body that has been cut since the last call. To be
+  /// called before a snapshot of it is written. New vertices are the last ones.
+  template <class B>
+  void follow_cuts(const Simulation<B>& simulation) {
+    if (simulation.mesh().vertices.size() > body_.levels.front().vertices.size())
+      take_cut(simulation.mesh(), simulation.surface(), simulation.surface_vertices());
+  }
   const std::vector<int>& volumes() const { return volume_levels_; }  ///< levels that are written
   const OutputOptions& output() const { return output_; }
   std::size_t frames() const { return frame_times_.size(); }
@@ -152,11 +161,13 @@ class RunFiles {
     TetMesh mesh;
     std::vector<double> mass;
   };
+  void take_cut(const TetMesh& mesh, const std::optional<TriangleSurface>& surface,
+                const std::vector<int>& surface_vertices);
   VtuGrid surface_grid(const Snapshot& snapshot) const;
   VtuGrid volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const;
 
-  Body body_;                                // the body, with the regions that the scene selects
-  const std::vector<Numbering>& numbering_;  // numbering of each level
+  Body body_;                         // the body, with the regions that the scene selects
+  std::vector<Numbering> numbering_;  // numbering of each level
   const OutputOptions& output_;
   Point placement_;
   TriangleSurface skin_;          // the embedded surface, or the boundary of level 0, at rest

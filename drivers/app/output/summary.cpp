@@ -121,11 +121,11 @@ Json held_json(const std::vector<HeldBy>& held) {
 }  // namespace
 
 bool has_elements(const LevelReport& level) {
-  return level.kind == LevelKind::mesh || level.kind == LevelKind::lattice;
+  return level.kind != LevelKind::space && level.kind != LevelKind::slivers;
 }
 
 const char* level_kind_name(LevelKind kind) {
-  constexpr const char* names[] = {"mesh", "lattice", "space", "slivers"};
+  constexpr const char* names[] = {"mesh", "lattice", "space", "slivers", "part"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -134,11 +134,17 @@ Json levels_json(const std::vector<LevelReport>& levels) {
                                                {"region", &StiffElement::region},
                                                {"height_ratio", &StiffElement::height_ratio},
                                                {"step", &StiffElement::step}};
+  static const Table<PieceReport> pieces = {{"tets", &PieceReport::tets},
+                                            {"followers", &PieceReport::followers},
+                                            {"cut", &PieceReport::cut},
+                                            {"mass", &PieceReport::mass},
+                                            {"least_filled", &PieceReport::least_filled}};
   static const Table<LevelReport> columns = {
       {"kind", [](const LevelReport& level) { return level_kind_name(level.kind); }},
       {"vertices", &LevelReport::vertices},
       {"tets", &LevelReport::tets},
       {"filled", &LevelReport::filled},
+      part("pieces", &LevelReport::pieces, pieces),
       {"nonzeros_per_row",
        [](const LevelReport& level) {
          return has_elements(level) ? Json() : Json(level.nonzeros);
@@ -158,7 +164,10 @@ Json levels_json(const std::vector<LevelReport>& levels) {
       {"largest_miss", &LevelReport::largest_miss},
       {"typical_element", &LevelReport::typical_element},
       part("stiffest", &LevelReport::stiffest, stiffest)};
-  return columns.json(levels);
+  Json all = columns.json(levels);
+  for (Json& level : all)  // levels of one piece have no list of them
+    if (level["pieces"].empty()) level.erase("pieces");
+  return all;
 }
 
 Json bodies_json(const Body& body) {
@@ -177,41 +186,45 @@ Json bodies_json(const Body& body) {
 std::string summary_json(const Scene& scene, const Summary& s,
                          const std::vector<std::string>& words) {
   const Point& gravity = scene.problem.gravity;
-  const Json json = {{"name", scene.name},
-                     {"scene", scene.file},
-                     {"gravity", {gravity.x(), gravity.y(), gravity.z()}},
-                     {"arguments", words},
-                     {"version", version()},
-                     {"git_revision", git_revision()},
-                     {"compiler", compiler()},
-                     {"status", s.status},
-                     {"simulated_time", s.simulated_time},
-                     {"macro_step", s.macro_step},
-                     {"macro_steps", s.macro_steps},
-                     {"wall_time", s.wall_time},
-                     {"setup_time", s.setup_time},
-                     {"peak_memory", s.peak_memory},
-                     {"frames", s.frames},
-                     {"precision", s.precision},
-                     {"backend", s.backend},
-                     {"threads", s.threads},
-                     {"wait_share", or_null(s.wait_share)},
-                     {"cycle", s.cycle},
-                     {"choice", choice_json(s.choice)},
-                     {"bodies", bodies_json(scene.problem.body)},
-                     {"levels", levels_json(s.levels)},
-                     {"stages", s.stages},
-                     {"counters", s.counters},
-                     {"residual", s.residual},
-                     {"last_good_time", s.last_good_time},
-                     {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
-                     {"warnings", s.warnings},
-                     {"obstacles", obstacles_json(scene.problem.contact)},
-                     {"wrenches", wrenches_json(s.wrenches)},
-                     {"reactions", reactions_json(s.reactions)},
-                     {"tools", tools_json(s.tools)},
-                     {"held", held_json(s.held)},
-                     {"penetration", penetrations_json(s.penetrations)}};
+  Json json = {{"name", scene.name},
+               {"scene", scene.file},
+               {"gravity", {gravity.x(), gravity.y(), gravity.z()}},
+               {"arguments", words},
+               {"version", version()},
+               {"git_revision", git_revision()},
+               {"compiler", compiler()},
+               {"status", s.status},
+               {"simulated_time", s.simulated_time},
+               {"macro_step", s.macro_step},
+               {"macro_steps", s.macro_steps},
+               {"wall_time", s.wall_time},
+               {"setup_time", s.setup_time},
+               {"peak_memory", s.peak_memory},
+               {"frames", s.frames},
+               {"precision", s.precision},
+               {"backend", s.backend},
+               {"threads", s.threads},
+               {"wait_share", or_null(s.wait_share)},
+               {"cycle", s.cycle},
+               {"choice", choice_json(s.choice)},
+               {"bodies", bodies_json(scene.problem.body)},
+               {"levels", levels_json(s.levels)},
+               {"stages", s.stages},
+               {"counters", s.counters},
+               {"residual", s.residual},
+               {"last_good_time", s.last_good_time},
+               {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
+               {"warnings", s.warnings},
+               {"obstacles", obstacles_json(scene.problem.contact)},
+               {"wrenches", wrenches_json(s.wrenches)},
+               {"reactions", reactions_json(s.reactions)},
+               {"tools", tools_json(s.tools)},
+               {"held", held_json(s.held)},
+               {"penetration", penetrations_json(s.penetrations)}};
+  if (s.cuts)
+    json["cuts"] = {{"opened_faces", s.cuts->opened_faces},
+                    {"new_vertices", s.cuts->new_vertices},
+                    {"pieces", s.cuts->pieces}};
   return json_text(json);
 }
 
@@ -336,6 +349,14 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
     rows.insert(rows.begin() + 1, {"macro steps", halved});
   if (const std::string cuts = cuts_text(s.counters); !cuts.empty())
     rows.insert(rows.begin() + 2, {"sub-steps", cuts});
+  if (s.cuts)
+    rows.insert(
+        rows.begin() + 1,
+        {"cuts",
+         fmt::format("{} opened, {} new, {} of the body", counted(s.cuts->opened_faces, "face"),
+                     s.cuts->new_vertices == 1 ? "1 vertex"
+                                               : fmt::format("{} vertices", s.cuts->new_vertices),
+                     counted(s.cuts->pieces, "piece"))});
   if (s.choice) rows.insert(rows.begin() + 1, {"cycle auto", choice_line(*s.choice)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }

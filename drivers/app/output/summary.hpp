@@ -43,6 +43,7 @@ struct Summary {
   std::vector<ToolState> tools;       ///< poses of obstacles with mass at the end
   std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
   Penetrations penetrations;          ///< largest depths in all frames
+  std::optional<CutReport> cuts;      ///< outcome of the scene's cuts; none: it has none
   std::vector<std::string> warnings;  ///< warnings about the scene and about the run
   /// last good positions of the corners of the diagnosis' element, or of its vertex [m]
   std::vector<Point> diagnosed;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <plica/core/error.hpp>
+#include <plica/drivers/app/report/frames_of_cuts.hpp>
 #include <plica/drivers/app/report/page.hpp>
 #include <plica/drivers/app/report/read_files.hpp>
 #include <plica/drivers/app/report/report.hpp>
@@ -18,14 +19,16 @@ namespace {
 
 constexpr std::size_t most_rows = 2000;  // maximum number of rows of a table on the page
 
+// Returns whether a file exists that may be seen
+bool is_seen(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
 bool holds_run(const std::filesystem::path& folder) {
-  return std::ranges::any_of(
-      std::array{"frames.pvd", "summary.json", "history.csv"},
-      [&](const char* file) { return std::filesystem::exists(folder / file); });
+  return std::ranges::any_of(std::array{"frames.pvd", "summary.json", "history.csv"},
+                             [&](const char* file) { return is_seen(folder / file); });
 }
-bool holds_study(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "study.json");
-}
+bool holds_study(const std::filesystem::path& folder) { return is_seen(folder / "study.json"); }
 
 // Returns the names of the subfolders that hold a run or a study, sorted
 std::vector<std::string> reportable_in(const std::filesystem::path& folder) {
@@ -143,6 +146,7 @@ class Maker {
     for (const Listed& film : listed) there = std::min(there, film.entries.size());
     report_.frames_there = there, data_["frames_there"] = there;
     std::vector<std::optional<SurfaceAnimation>> films(listed.size());
+    if (there > 0) read_last(listed, there - 1);
     const std::size_t taken = std::min(there, std::max<std::size_t>(frames, 2));
     for (std::size_t i = 0; i < taken; ++i) {
       const std::size_t frame = taken == 1 ? 0 : i * (there - 1) / (taken - 1);
@@ -157,6 +161,16 @@ class Maker {
       data_["films"].push_back(films[i]->json());
   }
 
+  // Reads the last frame of a body that was cut, whose mesh all frames get
+  void read_last(const std::vector<Listed>& listed, std::size_t frame) {
+    if (!data_.contains("summary") || !data_["summary"].contains("cuts")) return;
+    try {
+      for (const Listed& film : listed) last_.push_back(read_frame(film.entries[frame].file));
+    } catch (const InputError&) {
+      last_.clear();  // frames with another mesh are left out
+    }
+  }
+
   // Adds a frame to all animations; adds it to none and returns false if one cannot be read
   bool add_frame(const std::vector<Listed>& listed, std::size_t frame,
                  std::vector<std::optional<SurfaceAnimation>>& films) {
@@ -164,6 +178,7 @@ class Maker {
     try {
       for (std::size_t i = 0; i < films.size(); ++i) {
         files.push_back(read_frame(listed[i].entries[frame].file));
+        if (!last_.empty()) take_mesh_of_last(files[i], last_[i]);
         if (!films[i]) films[i].emplace(listed[i].level, files[i]);
         films[i]->check(files[i]);
       }
@@ -184,6 +199,7 @@ class Maker {
 
   std::filesystem::path folder_;
   Json data_;
+  std::vector<FrameFile> last_;  // last frame of each film of a body that was cut; else empty
   Report report_;
 };
 

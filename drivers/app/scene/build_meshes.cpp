@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/join_parts.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/repair_level.hpp>
 #include <plica/drivers/contact/sample_distance.hpp>
@@ -407,6 +408,8 @@ void check_names(const Body& body, const Tree& tree) {
 TetMesh finer_mesh(const Scene& scene) {
   LevelRecipe recipe = scene.levels.front();
   const SourceLocation where = place_of(scene.source, "body.levels.0");
+  if (is_part(recipe))
+    throw InputError("--space needs a finest level of the whole body, got one of a part", where);
   if (recipe.lattice || !recipe.file.empty())
     throw InputError(fmt::format("--space needs a finest level that can be made finer: a box, a "
                                  "ball, a cylinder, a blob or a tube, "
@@ -430,6 +433,10 @@ void build_meshes(Scene& scene, const Tree& tree) {
   for (std::size_t i = 0; i < scene.levels.size() && !scene.lattices; ++i) {
     const LevelRecipe& recipe = scene.levels[i];
     const SourceLocation where = place_of(tree, fmt::format("body.levels.{}", i));
+    if (recipe.refine) {
+      body.levels.emplace_back();
+      continue;
+    }
     body.levels.push_back(recipe.file.empty()
                               ? placed(where, [&] { return generated(recipe); })
                               : from_file(recipe, scene, where, scene.numbering[i]));
@@ -439,6 +446,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
       scene.warnings.push_back(scene.file +
                                ": body.levels.0: " + size_text(body.levels.back(), false));
   }
+  join_parts(scene, tree);
   if (scene.surface) {
     const SourceLocation where = place_of(tree, "body.surface");
     body.surface =

@@ -45,6 +45,12 @@ struct ListOrMap {
   static constexpr const char* words = "a list of maps, or a map";
 };
 
+/// Kind of a value: the word part, for all of a mesh, or a selection of its elements.
+struct PartOrSelection {
+  static constexpr const char* words = "part, or a map";
+  static constexpr bool takes_optional = true;
+};
+
 /// Kind of a value: points with names.
 struct NamedPoints {
   std::string type_text() const { return "a map of names to lists of 3 lengths (m)"; }
@@ -113,6 +119,15 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("coarsen", o.coarsen, AutoCount{fewest_points},
                 "no mesh, but a coarse space of the mesh before it, of so many points; auto: as "
                 "many spaces as it takes");
+  v.alternative("refine", o.refine, Group{},
+                "no mesh, but elements of the next level, each cut in eight; the rest of the body "
+                "is as there");
+  v("covers", o.covers, PartOrSelection{},
+    "part: its mesh is one of a part of the body, the rest is as on the next level; a map: "
+    "elements of its mesh that are used in this way");
+  v("border", o.border, Text{},
+    "with covers: group of its mesh that is its border inside the body; left out: what is not near "
+    "the next level's skin");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
     "vertices of that file at most this far apart, after scaling, become one; left out: they are "
@@ -313,6 +328,7 @@ void describe(V& v, Scene& o) {
   ContactKeys contact{o};
   v("contact", contact, Group{}, "what it collides with");
   v("attachments", o.problem.contact.attachments, List{}, "of bodies to each other, by springs");
+  v("cuts", o.problem.cuts, List{}, "of the body, by blades, while the run goes on");
   v("output", o.output, Group{}, "what a run writes");
   v("study", o.study, Group{}, "what plica study compares");
 }

@@ -170,6 +170,10 @@ class Catalogue {
     return schema;
   }
   template <class T>
+  Json inside(T&, const PartOrSelection&, const std::string& path) {
+    return any_of({{{"const", "part"}}, object<Selection>(path)});
+  }
+  template <class T>
   Json inside(T& member, const List& kind, const std::string& path) {
     using Values = std::remove_reference_t<decltype(made(kind, member))>;
     Json schema = list_of(object<typename Values::value_type>(path + "[]"));

@@ -94,6 +94,9 @@ Tree shared_integration(const Tree& tree) {
 namespace {
 
 bool is_space(const Tree& level) { return level.find("coarsen") != nullptr; }
+bool covers_all(const Tree& level) {
+  return level.find("covers") == nullptr && level.find("refine") == nullptr;
+}
 
 /// Returns the scene with one of its bodies as `body`. The body gets `levels` meshes: its coarsest
 /// mesh is repeated. Coarse spaces come after the meshes.
@@ -107,9 +110,10 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   for (Tree& item : one.items.back().items)
     if (item.key == "levels" && item.kind == Tree::Kind::list) {
       const auto first = std::ranges::find_if(item.items, is_space);
-      const auto meshes = static_cast<std::size_t>(first - item.items.begin());
+      const auto meshes =
+          static_cast<std::size_t>(std::count_if(item.items.begin(), first, covers_all));
       if (meshes > 0 && meshes < levels)
-        item.items.insert(first, levels - meshes, Tree(item.items[meshes - 1]));
+        item.items.insert(first, levels - meshes, Tree(*(first - 1)));
     }
   return one;
 }
@@ -153,8 +157,8 @@ void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, st
 }
 
 std::size_t meshes_of(const BodyRecipe& body) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(body.levels, [](const LevelRecipe& level) { return !level.coarsen; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      body.levels, [](const LevelRecipe& level) { return !level.coarsen && !is_part(level); }));
 }
 
 }  // namespace
@@ -178,7 +182,7 @@ Scene load_bodies(const Tree& tree) {
   std::vector<std::pair<std::string, Body>> bodies;
   for (const Tree& item : tree.find("bodies")->items) {
     Scene one = load_one(scene_of_one(tree, item, levels), item.key, bodies.empty());
-    if (all.levels.size() < one.levels.size()) all.levels = one.levels;
+    if (count_levels(all.levels) < count_levels(one.levels)) all.levels = one.levels;
     if (!all.surface) all.surface = one.surface;
     for (std::string& warning : one.warnings) all.warnings.push_back(renamed(warning, item.key));
     for (std::size_t i = 0; i < std::min(levels, one.numbering.size()); ++i) {

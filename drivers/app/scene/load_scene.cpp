@@ -20,10 +20,13 @@ namespace plica::app {
 std::vector<Choice> frame_formats() { return {{"vtu", "VTK's XML format for unstructured grids"}}; }
 
 std::vector<Choice> frame_fields() {
-  return {{"stress", "Cauchy's stress of tetrahedra, xx yy zz xy yz xz [Pa]"},
-          {"pressure", "of tetrahedra, minus a third of the stress's trace [Pa]"},
-          {"principal_stretches", "of tetrahedra, the largest first"},
-          {contact_pressure_field, "on the points of the surface [Pa]"}};
+  return {
+      {"stress", "Cauchy's stress of tetrahedra, xx yy zz xy yz xz [Pa]"},
+      {"pressure", "of tetrahedra, minus a third of the stress's trace [Pa]"},
+      {"principal_stretches", "of tetrahedra, the largest first"},
+      {contact_pressure_field, "on the points of the surface [Pa]"},
+      {normals_field, "on the points of the surface, unit and outwards"},
+      {texture_field, "on the points of the surface, u and v of its file; at a seam, one of them"}};
 }
 
 std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 bits"}}; }
@@ -154,6 +157,10 @@ void check_body(const Scene& scene) {
     only_of_files(level.file, !level.regions.empty(), path + ".regions");
     only_of_files(level.file, !level.leave_out.empty(), path + ".leave_out");
     only_of_files(level.file, level.order != LevelRecipe{}.order, path + ".order");
+    if (level.refine && level.covers)
+      throw InputError(path + " has refine and covers; expected one: refine chooses the part");
+    if (!level.border.empty() && !level.covers)
+      throw InputError(path + ".border: only a level with covers has one");
   }
   if (!scene.surface) return;
   const SurfaceRecipe& surface = *scene.surface;
@@ -205,23 +212,22 @@ void check_output(const Scene& scene) {
   if (output.probe_every && output.probes.empty())
     throw InputError("output.probe_every: there are no probes; give output.probes");
   for (const std::string& field : output.fields) {
-    const bool of_surface = field == contact_pressure_field;
-    if (of_surface && scene.obstacles.empty() && !has_pairs(scene.problem))
+    if (field == contact_pressure_field && scene.obstacles.empty() && !has_pairs(scene.problem))
       throw InputError("output.fields: " + field +
                        ": nothing touches the body; expected contact.obstacles");
-    if (!of_surface && !output.volume.all && output.volume.levels.empty())
+    if (!is_of_surface(field) && !output.volume.all && output.volume.levels.empty())
       throw InputError("output.fields: " + field +
                        " is written with tetrahedra; expected output.volume");
   }
   const std::string& cycle = scene.problem.integration.cycle;
-  const std::size_t in_use = integrated_levels(cycle, scene.levels.size());
+  const std::size_t levels = count_levels(scene.levels), in_use = integrated_levels(cycle, levels);
   for (const int level : output.volume.levels)
     if (static_cast<std::size_t>(level) >= in_use)
       throw InputError(
           fmt::format("output.volume: there is no level {}: the cycle '{}' integrates "
                       "{} of {} in body.levels, "
                       "counted from 0",
-                      level, cycle, in_use, scene.levels.size()));
+                      level, cycle, in_use, levels));
 }
 
 void check_duration(const Scene& scene) {
@@ -248,7 +254,7 @@ void check_scene(const Scene& scene, const Tree& tree) {
     if (is_one) {
       check_body(scene);
       check_memory(scene);
-      validate_options(scene.problem, scene.levels.size());
+      validate_options(scene.problem, count_levels(scene.levels));
     }
     check_duration(scene);
     check_output(scene);
@@ -287,6 +293,15 @@ void check_probes(Scene& scene) {
   }
 }
 
+/// Throws InputError where texture coordinates are to be written and there are none.
+void check_texture(const Scene& scene) {
+  const auto& surface = scene.problem.body.surface;
+  if (scene.output.writes(texture_field) && (!surface || surface->texture.empty()))
+    throw InputError(std::string("output.fields: ") + texture_field +
+                     ": the body's surface has none; expected body.surface.file, an OBJ file with "
+                     "lines 'vt'");
+}
+
 Scene load_body(const Tree& tree) {
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
@@ -314,7 +329,7 @@ Scene load_scene(const Tree& given) {
     scene.warnings.push_back(std::move(warning));
   for (const std::string& doubt : problem_warnings(scene.problem))
     scene.warnings.push_back(scene.file + ": " + doubt);
-  with_places(tree, [&] { check_probes(scene); });
+  with_places(tree, [&] { check_probes(scene), check_texture(scene); });
   return scene;
 }
 

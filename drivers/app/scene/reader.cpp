@@ -238,6 +238,11 @@ constexpr std::array<Renamed, 3> renamed_keys{{
 void Reader::unknown(const Tree& entry) const {
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   const std::string homes = homes_of(entry.key);
+  if (map_.path.starts_with("body.regions.") && entry.key == "material")
+    throw InputError(section +
+                         "unknown key 'material'; a region has the parameters of "
+                         "body.material's law without it, such as young_modulus",
+                     entry.key_where);
   if (!homes.empty())
     throw InputError(fmt::format("{}unknown key '{}'; it belongs in {}", section, entry.key, homes),
                      entry.key_where);

@@ -117,6 +117,12 @@ void read(const Value& value, const Switch&, std::optional<T>& target) {
   read(value, Flag{}, on);
   target = on ? std::optional<T>(T{}) : std::nullopt;
 }
+inline void read(const Value& value, const PartOrSelection&, std::optional<LevelCover>& target) {
+  LevelCover& cover = target.emplace();
+  if (value.tree.kind == Tree::Kind::map) return read(value, Group{}, cover.where.emplace());
+  if (value.tree.kind != Tree::Kind::scalar || value.tree.text != "part")
+    value.mismatch("part, or a map such as {sphere: {centre: [0, 0, 0], radius: 1 cm}}");
+}
 template <class T>
 void read(const Value& value, const List& kind, std::vector<T>& target) {
   const std::size_t size = value.list("a list").size();

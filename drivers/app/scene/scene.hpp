@@ -69,8 +69,12 @@ struct LevelRecipe {
   std::optional<double> lattice;
   /// number of points of a coarse space; 0: auto, as many spaces as are needed
   std::optional<int> coarsen;
-  std::string file;  ///< mesh file, relative to the scene
-  double scale = 1;  ///< metres per unit of the file
+  /// elements of the next coarser level that make this one, each cut in eight
+  std::optional<Selection> refine = {};
+  std::optional<LevelCover> covers = {};  ///< part of the body that it covers; none: all of it
+  std::string border = {};                ///< see LevelCover
+  std::string file;                       ///< mesh file, relative to the scene
+  double scale = 1;                       ///< metres per unit of the file
   /// distance up to which vertices of the file become one; none: they stay [m]
   std::optional<double> merge_duplicates;
   bool repair = false;                 ///< true: the file's mesh is repaired, see repair_mesh()
@@ -78,6 +82,13 @@ struct LevelRecipe {
   std::vector<std::string> leave_out;  ///< regions of the file that are left out
   std::string order = "split";         ///< second-order tetrahedra, one of second_orders()
 };
+
+/// Returns whether a level covers a part of the body alone.
+inline bool is_part(const LevelRecipe& level) { return level.covers || level.refine; }
+/// Returns the number of a body's levels: those that cover a part belong to one that covers all.
+inline std::size_t count_levels(const std::vector<LevelRecipe>& levels) {
+  return levels.size() - static_cast<std::size_t>(std::ranges::count_if(levels, is_part));
+}
 
 /// Triangulated sphere, see sphere_surface().
 struct BallSurfaceRecipe {
@@ -120,9 +131,11 @@ struct Numbering {
   std::vector<int> tet_ids;     ///< number in the file of each tetrahedron; empty: equal, from 0
 };
 
-/// Returns the number in the file of vertex or tetrahedron `index`; -1 stays -1.
+/// Returns the number in the file of vertex or tetrahedron `index`. It stays where the file has
+/// none: -1, and vertices that a cut has added.
 inline int input_number(const std::vector<int>& ids, int index) {
-  return index < 0 || ids.empty() ? index : ids[static_cast<std::size_t>(index)];
+  return index < 0 || index >= static_cast<int>(ids.size()) ? index
+                                                            : ids[static_cast<std::size_t>(index)];
 }
 
 /// Returns values per vertex or tetrahedron in the order of the input.
@@ -162,8 +175,13 @@ struct BodyRecipe {
   std::optional<SurfaceRecipe> surface;
 };
 
-/// Name of the one of frame_fields() that is on the surface. The others are of tetrahedra.
+/// Names of those of frame_fields() that are on the surface. The others are of tetrahedra.
 inline constexpr const char* contact_pressure_field = "contact_pressure";
+inline constexpr const char* normals_field = "normals";
+inline constexpr const char* texture_field = "texture_coordinates";
+inline bool is_of_surface(std::string_view field) {
+  return field == contact_pressure_field || field == normals_field || field == texture_field;
+}
 
 /// Files that a run writes.
 struct OutputOptions {
@@ -179,7 +197,7 @@ struct OutputOptions {
   }
   /// Returns true if a field of tetrahedra is asked for.
   bool writes_tensors() const {
-    return std::ranges::any_of(fields, [](const auto& f) { return f != contact_pressure_field; });
+    return std::ranges::any_of(fields, [](const auto& f) { return !is_of_surface(f); });
   }
 };
 

@@ -301,6 +301,10 @@ template <class B>
 void show_live(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options,
                const ExternalForces<B>& forces) {
   if constexpr (!B::on_host) throw InputError("a live view needs a back end on the host");
+  if (!scene.problem.cuts.empty() || !simulation.twins().empty())
+    throw InputError(
+        "cuts: a live view shows a body that stays whole; expected a scene without cuts, or plica "
+        "run");
   LiveView<B>(scene, simulation, options, forces).run();
 }
 

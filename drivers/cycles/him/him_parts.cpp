@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
@@ -51,6 +52,15 @@ TetMesh mesh_of(const TetMesh& all, const RowsOfBody& rows) {
     mesh.tets.push_back(tet);
     if (!all.region.empty()) mesh.region.push_back(all.region[e]);
     if (!all.filled.empty()) mesh.filled.push_back(all.filled[e]);
+  }
+  const Followers& followers = all.followers;
+  for (std::size_t i = 0; i < followers.vertex.size(); ++i) {
+    const int v = followers.vertex[i] - rows.first;
+    if (v < 0 || v >= rows.count) continue;
+    std::array<int, 4> of = followers.of[i];
+    for (int& master : of) master -= rows.first;
+    mesh.followers.vertex.push_back(v), mesh.followers.of.push_back(of);
+    mesh.followers.weight.push_back(followers.weight[i]);
   }
   return mesh;
 }
@@ -122,7 +132,10 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
   if (!spaces.empty()) {
     expect_small(body, spaces.back().up.cols());
     const RowMatrix whole = to_finest(spaces);
-    modes.emplace(coarse_stiffness(finest, lame, whole), spaces.back().mass);
+    const bool follows = !finest.followers.vertex.empty();  // rows of followers are empty
+    modes.emplace(
+        coarse_stiffness(finest, lame, follows ? product(follower_matrix(finest), whole) : whole),
+        spaces.back().mass);
     const bool of_mesh =
         below.made.empty() || (body.meshes.size() > 1 && below.made.back().slivers);
     frames = of_mesh ? frames_of_mesh(finest, body.meshes.back(), body.mass)

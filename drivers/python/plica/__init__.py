@@ -23,13 +23,13 @@ from .check import check, explain
 from .mesh import Mesh, Surface
 from .mesh import whole as _whole
 from .scene import Scene, keys
-from .quantities import Cavity, Obstacle, Reaction, Tool, Wrench
+from .quantities import Cavity, Cut, Obstacle, Reaction, Tool, Wrench
 from .run import Diverged, Run
 from .simulation import Simulation, close_all, report, solve, view
 from .study import study
 
 __version__ = _plica.version()
-__all__ = ["Cavity", "Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Obstacle", "Reaction",
+__all__ = ["Cavity", "Cut", "Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Obstacle", "Reaction",
            "Run", "Scene", "Simulation", "Surface", "Tool", "Wrench", "check", "explain", "info", "init", "keys",
            "report", "solve", "study", "view"]
 

@@ -176,14 +176,18 @@ class Surface:
 
     points: [points, 3] m.
     triangles: [triangles, 3] numbers of points, from 0, counter-clockwise seen from outside.
+    texture_coordinates: [triangles, 3, 2] u and v at the corners of the triangles; None: there are none.
     """
 
     points: np.ndarray
     triangles: np.ndarray
+    texture_coordinates: np.ndarray | None = None
 
     def __post_init__(self):
         self.points = checked("points", self.points, (-1, 3))
         self.triangles = numbered("triangles", self.triangles, len(self.points), "points", (-1, 3))
+        if self.texture_coordinates is not None:
+            self.texture_coordinates = checked("texture_coordinates", self.texture_coordinates, (len(self.triangles), 3, 2))
 
     def __repr__(self):
         return f"<plica.Surface: {len(self.points)} points, {len(self.triangles)} triangles>"
@@ -192,7 +196,11 @@ class Surface:
         """Writes a file in Wavefront's format, OBJ."""
         with open(file, "w", encoding="ascii") as out:
             out.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in self.points.tolist())
-            out.writelines(f"f {a} {b} {c}\n" for a, b, c in (self.triangles + 1).tolist())
+            if self.texture_coordinates is None:
+                out.writelines(f"f {a} {b} {c}\n" for a, b, c in (self.triangles + 1).tolist())
+                return
+            out.writelines(f"vt {u!r} {v!r}\n" for u, v in self.texture_coordinates.reshape(-1, 2).tolist())
+            out.writelines(f"f {a}/{3 * t + 1} {b}/{3 * t + 2} {c}/{3 * t + 3}\n" for t, (a, b, c) in enumerate((self.triangles + 1).tolist()))
 
 
 def as_surface(value) -> Surface | None:
@@ -200,7 +208,8 @@ def as_surface(value) -> Surface | None:
     if isinstance(value, Surface):
         return value
     if hasattr(value, "vertices") and hasattr(value, "faces"):  # trimesh
-        return Surface(value.vertices, value.faces)
+        uv = getattr(getattr(value, "visual", None), "uv", None)
+        return Surface(value.vertices, value.faces, None if uv is None else np.asarray(uv)[np.asarray(value.faces)])
     if hasattr(value, "points") and hasattr(value, "faces"):  # pyvista: sizes stand before each face's numbers
         faces = np.asarray(value.faces).reshape(-1)
         if faces.size % 4 or (faces[::4] != 3).any():

@@ -35,6 +35,22 @@ class Reaction:
 
 
 @dataclass(frozen=True)
+class Cut:
+    """What a cut came to.
+
+    opened_faces: number of faces between tetrahedra that have opened; 0: it has met nothing.
+    new_vertices: number of vertices that are new where others have split.
+    pieces: number of pieces of the body after it.
+    seconds: wall time that it took.
+    """
+
+    opened_faces: int
+    new_vertices: int
+    pieces: int
+    seconds: float
+
+
+@dataclass(frozen=True)
 class Cavity:
     """How a load with `enclosed_volume` is.
 

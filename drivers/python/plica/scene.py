@@ -155,6 +155,12 @@ class Scene:
         """[triangles, 3] points of the embedded surface, counter-clockwise seen from outside; None: the body has no surface."""
         return self._scene.surface()
 
+    def texture_coordinates(self) -> np.ndarray | None:
+        """[triangles, 3, 2] u and v at the corners of surface_triangles(), as the `vt` of an OBJ file or plica.Surface have them; None:
+        the surface has none. At a seam, corners at one point differ: give a renderer each corner as a vertex of its own."""
+        values = self._scene.texture()
+        return values.reshape(-1, 3, 2) if len(values) else None
+
     def __repr__(self):
         if self._scene is None:
             return "<plica.Scene: refused>"

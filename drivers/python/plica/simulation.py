@@ -21,7 +21,7 @@ from . import _plica
 from ._plica import Energies, InputError
 from .mesh import checked, needed, whole
 from .obstacles import Obstacles
-from .quantities import Cavity, Reaction
+from .quantities import Cavity, Cut, Reaction
 from .run import Diverged, Run, interval_of
 from .scene import Scene, made
 
@@ -99,8 +99,8 @@ class Simulation(Obstacles):
     scene: a plica.Scene, or what makes one: the name of a YAML file or a dict, with `set` and keyword arguments as for Scene.
     precision: "double" or "float", of the computation; arrays are in double anyway.
 
-    positions(), velocities(), surface_positions() and surface_velocities() return arrays that follow the simulation: they lie in
-    memory that C++ writes after every frame for as long as somebody holds them. They cannot be written to: copy what is to stay as
+    positions(), velocities(), surface_positions(), surface_velocities() and surface_normals() return arrays that follow the
+    simulation: they lie in memory that C++ writes after every frame for as long as somebody holds them. They cannot be written to: copy what is to stay as
     it is, or to be changed. They outlive the simulation, and their `base` hands the memory to other libraries by DLPack.
 
     One thread at a time computes. Another one that asks for something waits until the macro step is done; while a simulation
@@ -228,6 +228,11 @@ class Simulation(Obstacles):
         """[points, 3] m/s, likewise."""
         return _read_only(self._open().surface_velocities())
 
+    def surface_normals(self) -> np.ndarray:
+        """[points, 3] unit normals of the embedded surface where it is now, outwards; likewise. A normal is the mean of those of the
+        triangles around the point, weighted by their angles there; 0 where all of these are flat."""
+        return _read_only(self._open().surface_normals())
+
     def von_mises(self, level: int = 0) -> np.ndarray:
         """Equivalent stress now [Pa]: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
         return self._open().element_fields(whole("level", level))[1]
@@ -344,6 +349,16 @@ class Simulation(Obstacles):
 
         self._open().set_forces(forces and added)
         self._forces = forces
+
+    def cut(self, triangles) -> Cut:
+        """Cuts the body along faces of level 0, where triangles [n, 3, 3] m pass between tetrahedra now.
+
+        Faces open and vertices split; mass and momentum stay, and the critical step is found again. New vertices come after the
+        others. Arrays from before the cut stay as they were: ask for new ones. Cycles single and him can follow a cut; InputError
+        says what cannot.
+        """
+        rows = checked("triangles", triangles, (-1, 3, 3)).reshape(-1, 9).tolist()
+        return Cut(*self._open().cut(rows))
 
     def set_gravity(self, gravity) -> None:
         """Sets gravity from now on: [3] m/s^2. Neither save() nor reset() stores it."""

@@ -19,7 +19,7 @@ def study(scene=None, *, budget: float | str | None = None, set: dict | None = N
 
     Columns are those of study.csv: method, macro_step [s], error, wall_time [s], status, pareto ... Ctrl-C stops it.
     """
-    pandas = needed("pandas", "plica.study")
     scene = made("study", scene, set, overrides)
+    pandas = needed("pandas", "plica.study")
     seconds = None if budget is None else interval_of(budget, "budget")[0]
     return pandas.read_csv(io.StringIO(_plica.study(scene._scene, seconds)))

@@ -5,13 +5,15 @@
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/report/read_files.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
-// What runs write of contact and supports, and of the steps that contact cuts.
+// What runs write of contact, supports and the surface, and of the steps that contact cuts.
 namespace plica::app::test {
 namespace {
 
@@ -20,6 +22,41 @@ body: {levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]}
 )";
 const std::vector<std::string> implicit = {"integration.integrator=implicit_euler",
                                            "integration.macro_step=1ms"};
+
+TEST(RunFiles, WriteNormalsAndTextureOfTheSurface) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "skin.obj";
+  write_file(file,
+             "v 0.2 0.2 0.5\nv 0.7 0.2 0.5\nv 0.2 0.7 0.5\nvt 0 0\nvt 1 0\nvt 0 1\n"
+             "f 1/1 2/2 3/3\n");
+  const Scene scene = scene_of(block, {"output.fields=[normals, texture_coordinates]",
+                                       "body.surface.file=" + file.string()});
+  RunFiles files(scene, folder.path());
+  Snapshot now;
+  now.positions = scene.problem.body.levels[0].vertices;
+  now.velocities.assign(now.positions.size(), Point::Zero());
+  now.surface = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  now.surface_velocities.assign(3, Point::Zero());
+  files.write(now);
+  const FrameFile surface = read_frame(folder / "frames/surface_0000.vtu");
+  ASSERT_NE(surface.find("normals"), nullptr);
+  EXPECT_EQ(surface.find("normals")->values, (std::vector<double>{1, 0, 0, 1, 0, 0, 1, 0, 0}));
+  ASSERT_NE(surface.find("texture_coordinates"), nullptr);
+  EXPECT_EQ(surface.find("texture_coordinates")->components, 2);
+  EXPECT_EQ(surface.find("texture_coordinates")->values, (std::vector<double>{0, 0, 1, 0, 0, 1}));
+
+  Tree tree = parse_tree(block, "a.yaml");
+  for (const char* set : {"output.fields=texture_coordinates", "body.surface.boundary=true"})
+    override_value(tree, set, set);
+  try {
+    load_scene(tree);
+    ADD_FAILURE() << "the boundary has no texture";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected body.surface.file, an OBJ file"),
+              std::string::npos)
+        << error.what();
+  }
+}
 
 // Columns more, and only where something rubs, and where implicit steps may be halved
 TEST(RunFiles, HistoryTellsOfFriction) {

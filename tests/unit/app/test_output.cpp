@@ -268,7 +268,8 @@ TEST(RunFiles, RefuseFieldsThatNobodyWrites) {
   EXPECT_NE(
       refused({"output.fields=[stress, presure]"})
           .find("output.fields.1: unknown field 'presure'; did you mean 'pressure'? (choices: "
-                "stress, pressure, principal_stretches, contact_pressure)"),
+                "stress, pressure, principal_stretches, contact_pressure, normals, "
+                "texture_coordinates)"),
       std::string::npos);
   EXPECT_NE(refused({"output.fields=stress", "output.volume=false"}).find("expected output.volume"),
             std::string::npos);

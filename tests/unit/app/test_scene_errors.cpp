@@ -44,9 +44,11 @@ const Damage damages[] = {
     {"MissingKeyBelow", "radius: 4 cm, ", "",
      "a.yaml:8: body.surface.sphere: the key 'radius' is missing"},
     {"WrongDimension", "50 kPa", "4 cm",
-     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '4 cm', a length"},
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) in [1e-06, 1e+15] Pa, got '4 "
+     "cm', a length"},
     {"UnknownUnit", "50 kPa", "50 kpa",
-     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '50 kpa', unknown "
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) in [1e-06, 1e+15] Pa, got "
+     "'50 kpa', unknown "
      "unit 'kpa'; did you "
      "mean "
      "'kPa'?"},
@@ -183,6 +185,10 @@ const Damage damages[] = {
      "none"},
     {"UnknownGroup", "material:", "fixed: [{group: left}]\n  material:",
      "a.yaml:7: body.fixed.0.group: there is no group 'left': the meshes name none"},
+    {"MaterialOfARegion",
+     "material:", "regions: {tumour: {material: {young_modulus: 1 kPa}}}\n  material:",
+     "a.yaml:7: body.regions.tumour: unknown key 'material'; a region has the parameters of "
+     "body.material's law without it, such as young_modulus"},
     {"UnknownRegion", "material:", "regions: {tumour: {density: 1}}\n  material:",
      "a.yaml:7: body.regions.tumour: there is no region 'tumour': the meshes name none"},
     {"MissingMesh", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{file: nowhere.msh}",

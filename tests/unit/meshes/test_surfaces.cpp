@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <cstring>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/validated_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <sstream>
 
 #include "mesh_input.hpp"
 
@@ -59,6 +61,101 @@ TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
   const TriangleSurface surface = read_surface(FileBytes{"m.obj", inside_out}, &report);
   EXPECT_TRUE(report.turned);
   EXPECT_NEAR(enclosed_volume(surface), 1.0 / 6.0, 1e-15);
+}
+
+// A cube of four-cornered faces, each with the whole picture on it: u and v are told by a corner's
+// place on its face.
+std::string textured_cube() {
+  std::string text = "vt 0 0\nvt 1 0\nvt 1 1 0\nvt 0 1\n";
+  for (int i = 0; i < 8; ++i)
+    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2) + "\n";
+  for (const auto& f : {std::array{1, 3, 4, 2},
+                        {5, 6, 8, 7},
+                        {1, 2, 6, 5},
+                        {3, 7, 8, 4},
+                        {1, 5, 7, 3},
+                        {2, 4, 8, 6}}) {
+    text += "f";
+    for (int k = 0; k < 4; ++k)
+      text += " " + std::to_string(f[static_cast<std::size_t>(k)]) + "/" +
+              (k == 3 ? "-1" : std::to_string(k + 1));
+    text += "\n";
+  }
+  return text;
+}
+
+/// Each triangle is half of a face: u and v are affine in its plane with unit derivatives.
+void expect_unit_texture(const TriangleSurface& surface, double sign) {
+  ASSERT_EQ(surface.texture.size(), surface.triangles.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.texture[t];
+    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    EXPECT_EQ(area, sign);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = [&](std::size_t i) {
+        return surface.vertices[static_cast<std::size_t>(surface.triangles[t][i % 3])];
+      };
+      const auto &uv = surface.texture[t][k], &next = surface.texture[t][(k + 1) % 3];
+      EXPECT_NEAR(std::hypot(next[0] - uv[0], next[1] - uv[1]), (at(k + 1) - at(k)).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(Surfaces, ObjTextureStaysWithItsCorners) {
+  const TriangleSurface cube = read({"m.obj", textured_cube()});
+  ASSERT_EQ(cube.triangles.size(), 12u);
+  expect_unit_texture(cube, 1);
+
+  std::string twice = textured_cube();  // a face again: the second one is dropped
+  const std::string last = twice.substr(twice.rfind("f "));
+  EXPECT_EQ(read({"m.obj", twice + last}).texture, cube.texture);
+
+  const std::filesystem::path path("cube.obj");
+  const WrittenMesh written = write_surface(path, cube);
+  EXPECT_EQ(read({"cube.obj", written.files[0].bytes}).texture, cube.texture);
+  EXPECT_TRUE(written.left_out.empty());
+  EXPECT_EQ(write_surface("cube.stl", cube).left_out.size(), 1u);
+}
+
+TEST(Surfaces, ObjTextureOfFacesThatAreTurned) {
+  std::string text = textured_cube();
+  for (std::size_t at = text.find("\nf "); at != text.npos; at = text.find("\nf ", at + 1)) {
+    // the second corner and the last one change places
+    const std::size_t end = text.find('\n', at + 1);
+    std::vector<std::string> words;
+    std::istringstream line(text.substr(at + 3, end - at - 3));
+    for (std::string word; line >> word;) words.push_back(word);
+    text.replace(at, end - at,
+                 "\nf " + words[0] + " " + words[3] + " " + words[2] + " " + words[1]);
+  }
+  SurfaceReport report;
+  const TriangleSurface cube = read_surface(FileBytes{"m.obj", text}, &report);
+  EXPECT_TRUE(report.turned);
+  expect_unit_texture(cube, 1);
+}
+
+// Two halves of a square that have their own vertices on the common edge, and another picture each
+TEST(Surfaces, ObjTextureIsKeptByAWeld) {
+  const std::string halves =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.25 0\nvt 0.5 1\n"
+      "f 1/1 2/2 3/3\nf 4/3 5/2 6/1\n";
+  SurfaceReport report;
+  const TriangleSurface square = read_surface(FileBytes{"m.obj", halves}, &report, 1e-6);
+  EXPECT_EQ(report.welded, 2);
+  EXPECT_EQ(square.vertices.size(), 4u);
+  const std::array<double, 2> first{0, 0}, second{0.25, 0}, third{0.5, 1};
+  EXPECT_EQ(square.texture,
+            (std::vector<CornerTexture>{{{first, second, third}}, {{third, second, first}}}));
+}
+
+TEST(Surfaces, ObjCornersWithoutTextureHaveZero) {
+  EXPECT_TRUE(read({"m.obj", obj}).texture.empty());  // its faces name coordinates that it lacks
+  const auto texture = read({"m.obj", obj + "vt 0.5 0.25\n"}).texture;
+  ASSERT_EQ(texture.size(), 4u);
+  EXPECT_EQ(texture[0][0], (std::array{0.0, 0.0}));
+  EXPECT_EQ(texture[1][0], (std::array{0.5, 0.25}));  // the corner 1/1
+  EXPECT_EQ(texture[1][1], (std::array{0.0, 0.0}));   // the corner 2/2
 }
 
 TEST(Surfaces, CountsWhatIsNotClosed) {
@@ -131,6 +228,7 @@ TEST(MalformedSurfaces, Obj) {
   refused("v 0 0 0", "v 0 inf 0", 1, {"coordinate y is 'inf'"});
   refused("0 1 0 1.0", "0 1 0 0.5", 3, {"weight", "'0.5'"});
   refused("f 1 3 2", "f 1 3", 5, {"three corners"});
+  refused("f 1 3 2", "vt 0 x", 5, {"texture coordinate v is 'x'"});
   refused("f 1 3 2", "f 1 3 9", 5, {"triangle 1 names node 9"});
   refused("f 1 3 2", "f 1 3 0", 5, {"'0'", "from 1"});
   refused("f 1 3 2", "f 1 3 -5", 5, {"'-5'", "only 4 vertices"});

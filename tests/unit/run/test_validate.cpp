@@ -37,7 +37,7 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.body.material.model = "neohookean"; },
      {"neohookean", "did you mean 'neo_hookean'?"}},
     {[](Problem& p) { p.body.material.young_modulus = -1; },
-     {"body.material.young_modulus is -1 Pa", "expected a pressure (Pa) > 0"}},
+     {"body.material.young_modulus is -1 Pa", "expected a pressure (Pa) in [1e-06, 1e+15] Pa"}},
     {[](Problem& p) { p.body.material.young_modulus = nan; }, {"body.material.young_modulus is"}},
     {[](Problem& p) { p.body.material.poisson_ratio = 0.5; },
      {"body.material.poisson_ratio is 0.5", "in [0, 0.5)"}},
