@@ -133,7 +133,12 @@ def test_simulations_that_are_gone_leave_nothing():
 
 
 def test_in_float():
-    in_float, in_double = plica.Simulation(CUBE, precision="float"), plica.Simulation(CUBE)
+    try:
+        in_float = plica.Simulation(CUBE, precision="float")
+    except plica.InputError as error:  # as of the wheel
+        assert "this build has double alone" in str(error)
+        pytest.skip(str(error))
+    in_double = plica.Simulation(CUBE)
     for sim in (in_float, in_double):
         sim.run(0.02)
     assert in_float.precision == "float" and in_float.positions().dtype == np.float64
@@ -168,7 +173,8 @@ def shuffled_cube():
 
 def test_a_mesh_in_memory_keeps_its_order():
     mesh, shuffled, order = shuffled_cube()
-    ours, same = plica.Simulation(CUBE, body={"levels": [shuffled]}), plica.Simulation(CUBE)
+    steps = {"integration.macro_step": "2 ms"}  # an automatic one depends a little on the order
+    ours, same = plica.Simulation(CUBE, body={"levels": [shuffled]}, set=steps), plica.Simulation(CUBE, set=steps)
     assert np.array_equal(ours.positions(), shuffled.points)
     assert np.array_equal(ours.scene.mesh().tets, shuffled.tets)
     for sim in (ours, same):
