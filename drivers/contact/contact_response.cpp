@@ -14,7 +14,8 @@ namespace {
 
 // Sweeps after the first one, which finds rho and the forces from e alone. With the inverse of
 // lumped masses a sweep costs little, and two bodies that meet fast need these sweeps. With the
-// inverse mass of `him` each sweep costs one application of it.
+// inverse mass of `him` each sweep costs one application of it; where triangles touch, which share
+// vertices with each other and with points, fewer sweeps would leave contact too soft.
 constexpr int sweeps_of_masses = 7, sweeps_of_him = 3;
 
 /// Returns the whole macro step of which `step` is a part: all its times divided by `part`.
@@ -91,7 +92,7 @@ void ContactResponse<B>::solve(const Exec& exec, const LevelData<B>& level, cons
   const DeviceList<B>& list = records_.list;
   sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_,
                  records_.touching);
-  const int sweeps = contact.isotropic ? sweeps_of_masses : sweeps_of_him;
+  const int sweeps = contact.isotropic || contact_->whole() > 0 ? sweeps_of_masses : sweeps_of_him;
   for (int sweep = 0; sweep <= sweeps; ++sweep) {
     respond();
     over_list<B>(exec, list, "plica::contact_sweep", SweepContact<B>{contact, sweep == 0},

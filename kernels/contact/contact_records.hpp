@@ -313,6 +313,8 @@ struct ContactRecords {
     const Real least = (1 - rounding) * law_at(r).strength;
     return dot(F, F) >= least * least;
   }
+  /// Returns true where steps are implicit: then depths are of the end of the last step.
+  KOKKOS_INLINE_FUNCTION bool is_implicit() const { return block.extent(0) > 0; }
   /// Returns true where a record is in the linear system.
   KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const {
     return block(r, 0) + block(r, 1) + block(r, 2) > 0;

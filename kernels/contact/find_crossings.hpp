@@ -141,7 +141,7 @@ struct DeepestCrossings {
     Real its = deepest.depth;
     if (!fresh)
       its = grown_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0),
-                        records.span * deepest.velocity);
+                        records.span * deepest.velocity, records.is_implicit());
     const Real own = deepest.gap.own, other = deepest.gap.other;
     const int a = edges.end(deepest.own, 0), c = edges.end(deepest.other, 0);
     records.set_stencil(r, a, edges.end(deepest.own, 1), c, edges.end(deepest.other, 1), 1 - own,

@@ -160,9 +160,14 @@ struct ListClose {
 /// Returns a depth with limited growth: it grows from 0, by little more than a site's way against
 /// its partner in a step. A site may count as inside for other reasons, such as another triangle
 /// that is nearest. The limit prevents that this stores energy that no force has put in.
+/// @param last    depth of the record in the last step [m]
+/// @param way     way of the site against its partner in a step [m]
+/// @param at_end  true where `last` is of the end of the last step. It has the approach already,
+/// and only the partner's curvature adds to it
 template <class Real>
-KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way) {
-  return Kokkos::min(depth, Kokkos::max(last, Real(0)) + Real(1.5) * Kokkos::sqrt(dot(way, way)));
+KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way, bool at_end) {
+  const Real part = at_end ? Real(0.1) : Real(1.5);
+  return Kokkos::min(depth, Kokkos::max(last, Real(0)) + part * Kokkos::sqrt(dot(way, way)));
 }
 
 /// Finds the nearest triangle for each point's slot, the one with the lowest number where several
@@ -321,7 +326,7 @@ struct NearestTriangles {
     Real depth = inside ? distance : -distance;
     if (!fresh)
       depth = grown_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0),
-                          records.span * speed(p, t, w));
+                          records.span * speed(p, t, w), records.is_implicit());
     const bool by_surface = on_face || distance < tiny * limit;
     const Vec3<Real> N = by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d;
     join(p, r, t, w);
