@@ -102,8 +102,8 @@ TYPED_TEST(ArchiveOf, KnowsTheMembersOfTheLevelsArrays) {
   };
   EXPECT_EQ(arrays(Transfer<B>{}), 3);
   EXPECT_EQ(arrays(EmbeddedSurface<B>{}), 8);
-  EXPECT_EQ(arrays(Patches<B>{}), 15);
-  EXPECT_EQ(arrays(NodalRows<B>{}), 19);
+  EXPECT_EQ(arrays(Patches<B>{}), 16);
+  EXPECT_EQ(arrays(NodalRows<B>{}), 20);
   EXPECT_EQ(arrays(ViscousHistory<B>{}), 4);
 }
 
