@@ -104,10 +104,11 @@ LevelComparison compare_levels(const MeshSize& finest, const MeshSize& coarse, s
   const bool no = beyond(wrong, finest, coarse), lacks = covers_part(finest, coarse),
              part = lacks || covers_part(coarse, finest);
   if (part && other_unit(finest, coarse, level).empty())
-    return {SameBody::no,
-            text("level ", lacks ? 0 : level, " covers a part of level ", lacks ? level : 0, ": ",
-                 measures(lacks ? finest : coarse), " of ", measures(lacks ? coarse : finest),
-                 "; expected levels of the whole body")};
+    return {
+        SameBody::no,
+        text("level ", lacks ? 0 : level, " covers a part of level ", lacks ? level : 0, ": ",
+             measures(lacks ? finest : coarse), " of ", measures(lacks ? coarse : finest),
+             "; expected levels of the whole body, or the key covers of the level that does not")};
   if (!beyond(doubtful, finest, coarse)) return {};
   return {no ? SameBody::no : SameBody::doubtful,
           text("level ", level,

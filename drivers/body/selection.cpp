@@ -44,8 +44,8 @@ struct Among {
     const auto nearer = [&](const Point& a, const Point& b) {
       return (a - nearest.to).squaredNorm() < (b - nearest.to).squaredNorm();
     };
-    return {
-        static_cast<int>(std::min_element(points.begin(), points.end(), nearer) - points.begin())};
+    const Point found = *std::min_element(points.begin(), points.end(), nearer);
+    return where([&](const Point& p) { return p == found; });  // cuts leave several at one place
   }
   template <class Named>
   std::vector<int> operator()(const Named&) const {

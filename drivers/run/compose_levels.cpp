@@ -25,7 +25,9 @@ PartMesh part_of_level(const Body& body, std::size_t level, const PartMesh& belo
   const Selecting who{level_path(level) + (cover.refined ? ".refine" : ".covers"),
                       static_cast<int>(level) + (cover.refined ? 1 : 0)};
   const PartMesh whole = cover.refined ? below : whole_mesh(own);
-  const PartMesh part = cut_out(whole, select_elements(whole.mesh, *cover.where, who));
+  TetMesh named = whole.mesh;
+  add_regions(named, body.regions, who.level);
+  const PartMesh part = cut_out(whole, select_elements(named, *cover.where, who));
   return cover.refined ? refined(part) : part;
 }
 

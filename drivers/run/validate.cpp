@@ -296,8 +296,7 @@ void check_finest_level(const Body& body) {
     if (i == 0)
       finest = one;
     else if (covers_part(finest, one))
-      throw InputError("body.levels: " + compare_levels(finest, one, i).sentence +
-                       ", or the key covers, which says that a level covers a part");
+      throw InputError("body.levels: " + compare_levels(finest, one, i).sentence);
   }
 }
 

@@ -35,7 +35,7 @@ TEST(KeyList, EveryKeyIsDescribed) {
 TEST(KeyList, SaysUnitRangeAndDefault) {
   for (const KeyInfo& key : scene_keys()) {
     if (key.path != "body.material.young_modulus") continue;
-    EXPECT_EQ(key.type_text, "a pressure (Pa) > 0");
+    EXPECT_EQ(key.type_text, "a pressure (Pa) in [1e-06, 1e+15] Pa");
     EXPECT_EQ(key.otherwise, "20000 Pa");
   }
 }

@@ -304,7 +304,8 @@ TEST(LevelsOfOneBody, CoverAllOfIt) {
   Problem p = body_of({part, whole});
   const std::string numbers =
       "0.3 x 0.1 x 0.1 m, 0.003 m^3, 3 kg, centroid [0.15, 0.05, 0.05] of 0.4 x 0.1 x 0.1 m, 0.004 "
-      "m^3, 4 kg, centroid [0.2, 0.05, 0.05]; expected levels of the whole body";
+      "m^3, 4 kg, centroid [0.2, 0.05, 0.05]; expected levels of the whole body, or the key covers "
+      "of the level that does not";
   for (const char* cycle : {"single", "him", "rsv", "fas"}) {
     p.integration.cycle = cycle;
     EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
