@@ -39,8 +39,12 @@ TEST(PartScenes, RefineAPartAndRun) {
   // the beam's end sinks, its base stays
   const std::vector<Point> places = simulation.positions();
   for (std::size_t v = 0; v < places.size(); ++v) {
-    if (mesh.vertices[v][0] == 0) EXPECT_LE((places[v] - mesh.vertices[v]).norm(), 1e-15);
-    if (mesh.vertices[v][0] > 0.4 - 1e-9) EXPECT_LT(places[v][2], mesh.vertices[v][2]);
+    if (mesh.vertices[v][0] == 0) {
+      EXPECT_LE((places[v] - mesh.vertices[v]).norm(), 1e-15);
+    }
+    if (mesh.vertices[v][0] > 0.4 - 1e-9) {
+      EXPECT_LT(places[v][2], mesh.vertices[v][2]);
+    }
   }
 }
 

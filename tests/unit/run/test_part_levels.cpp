@@ -176,7 +176,8 @@ TEST(PartLevels, AreRefusedWhereTheyCannotBe) {
   Problem silent = beam_with_part();
   silent.body.covers.clear();
   silent.body.levels[0] = box_mesh({{0, 0, 0}, {0.2, 0.1, 0.1}}, {12, 6, 6});
-  EXPECT_NE(refusal([&] { validate(silent); }).find("covers, which says"), std::string::npos);
+  EXPECT_NE(refusal([&] { validate(silent); }).find("the key covers of the level"),
+            std::string::npos);
 }
 
 TEST(PartLevels, MeshesWithWrongFollowersAreRefused) {
