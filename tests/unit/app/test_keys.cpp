@@ -92,6 +92,9 @@ const Json* schema_at(const Json& schema, const std::string& path) {
     const bool list = part.ends_with("[]");
     if (list) part.resize(part.size() - 2);
     const char* inside = part == "<name>" ? "additionalProperties" : "properties";
+    if (at->contains("anyOf"))  // a word or a map
+      for (const Json& one : at->at("anyOf"))
+        if (one.contains(inside)) at = &one;
     if (!at->contains(inside)) return nullptr;
     at = &at->at(inside);
     if (part != "<name>") {
@@ -116,7 +119,7 @@ TEST(Schema, HasEveryKey) {
   EXPECT_EQ(one->at("required"), schema_at(schema, "body")->at("required"));
   EXPECT_EQ(one->at("properties").at("integration").at("$ref"), "#/properties/integration");
   EXPECT_FALSE(schema_at(schema, "body")->at("properties").contains("integration"));
-  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 7);
+  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 8);
 }
 
 bool fits(const Dimension& dimension, const std::string& unit) {
