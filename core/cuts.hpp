@@ -13,9 +13,9 @@ struct BladeOptions {
 
 /// A cut of the finest level by a blade, while the run goes on.
 struct CutOptions {
-  BladeOptions blade;
-  double from = 0;  ///< time at which the blade begins to cut [s]
-  double to = 0;    ///< time at which it ends, above `from` [s]
+  BladeOptions blade;  ///< what cuts
+  double from = 0;     ///< time at which the blade begins to cut [s]
+  double to = 0;       ///< time at which it ends, above `from` [s]
 };
 
 }  // namespace plica

@@ -13,7 +13,7 @@ namespace plica {
 
 /// Mesh of a part of the body.
 struct PartMesh {
-  TetMesh mesh;
+  TetMesh mesh;  ///< tetrahedra of the part
   /// Boundary triangles that are the body's skin, in any orientation; the others are the border.
   /// None: compose() tells them apart
   std::optional<std::vector<std::array<int, 3>>> skin = {};

@@ -22,6 +22,7 @@ using Blade = std::vector<std::array<Point, 3>>;
 /// a line through one of its triangles. Triangles without area open nothing.
 /// @param tets       tetrahedra of the mesh
 /// @param positions  where the vertices are, in the room in which the blade moves [m]
+/// @param blade      what the blade sweeps
 Faces faces_across(const std::vector<std::array<int, 4>>& tets, const std::vector<Point>& positions,
                    const Blade& blade);
 
@@ -35,6 +36,7 @@ struct CutMesh {
 /// together. The group with the lowest tetrahedron keeps the number; the others get new ones, in
 /// the order of vertices and of their lowest tetrahedra. Named sets get the new vertices of their
 /// own, named triangles both sides.
+/// @param mesh  mesh without open faces
 /// @param open  all faces that are open, also those of earlier cuts; a face that opens alone,
 /// without a vertex that splits, opens together with later ones
 CutMesh open_faces(const TetMesh& mesh, const Faces& open);
@@ -49,7 +51,9 @@ std::vector<int> boundary_vertices_of(const TriangleSurface& surface, const TetM
 
 /// Replaces a surface, which was the boundary of a mesh, by the boundary of the mesh after a cut.
 /// Points keep their numbers; new ones come at the end. Textures are left out.
-/// @param vertex  vertex of the mesh at each point; new points are added to it
+/// @param mesh     mesh after the cut
+/// @param surface  surface to replace
+/// @param vertex   vertex of the mesh at each point; new points are added to it
 void follow_cut(const TetMesh& mesh, TriangleSurface& surface, std::vector<int>& vertex);
 
 /// Returns the embedding of points that are vertices of the mesh, by their numbers.
