@@ -13,7 +13,7 @@ struct BladeOptions {
 
 /// A cut of the finest level by a blade, while the run goes on.
 struct CutOptions {
-  BladeOptions blade;  ///< what cuts
+  BladeOptions blade;  ///< blade that cuts
   double from = 0;     ///< time at which the blade begins to cut [s]
   double to = 0;       ///< time at which it ends, above `from` [s]
 };
