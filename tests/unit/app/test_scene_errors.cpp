@@ -46,6 +46,9 @@ const Damage damages[] = {
     {"WrongDimension", "50 kPa", "4 cm",
      "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) in [1e-06, 1e+15] Pa, got '4 "
      "cm', a length"},
+    {"StifferThanAnyMaterial", "50 kPa", "1e300 Pa",
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) in [1e-06, 1e+15] Pa, got "
+     "'1e300 Pa'"},
     {"UnknownUnit", "50 kPa", "50 kpa",
      "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) in [1e-06, 1e+15] Pa, got "
      "'50 kpa', unknown "

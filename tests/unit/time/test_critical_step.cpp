@@ -308,6 +308,16 @@ TEST(Shares, RefusesCustomOnesThatDoNotFit) {
   EXPECT_NE(refusal_of(o).find("did you mean 'equal'?"), std::string::npos) << refusal_of(o);
 }
 
+TEST(AutomaticStep, SaysWhyThereIsNone) {
+  LevelLimits level;
+  level.tets = 1, level.integrator = "symplectic_euler";
+  level.critical_step = std::numeric_limits<double>::infinity();
+  const auto refused = [&] { return refusal([&] { plan_steps(IntegrationOptions{}, {level}); }); };
+  EXPECT_NE(refused().find("nothing is free to move"), std::string::npos) << refused();
+  level.integrator = "implicit_euler", level.is_explicit = false;
+  EXPECT_NE(refused().find("all are implicit"), std::string::npos) << refused();
+}
+
 // A level without a limit of its own has no critical share: never a NaN that runs.
 TEST(Shares, RefusesCriticalOnesWithoutALimit) {
   auto none = levels, rigid = levels;
