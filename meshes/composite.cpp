@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <plica/core/error.hpp>
+#include <plica/core/row_ranges.hpp>
 #include <plica/core/text.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/common_volume.hpp>
@@ -24,8 +25,6 @@ constexpr double part_rounding = 1e-9;     // smaller parts are 0, larger ones t
 constexpr double weight_rounding = 1e-10;  // smaller weights are 0
 constexpr double wrong_volume = 0.1, doubtful_volume = 0.02;  // change over the part's volume
 constexpr int samples = 8;                                    // points along an edge
-
-std::size_t as_index(int number) { return static_cast<std::size_t>(number); }
 
 Box box_of(const std::array<Point, 4>& x) {
   return {x[0].cwiseMin(x[1]).cwiseMin(x[2]).cwiseMin(x[3]),
@@ -81,7 +80,7 @@ struct FoundAmong {
   FoundAmong(const TetMesh& of, std::vector<int> tets) : tet(std::move(tets)) {
     if (tet.empty()) return;
     mesh.vertices = of.vertices;
-    for (const int t : tet) mesh.tets.push_back(of.tets[as_index(t)]);
+    for (const int t : tet) mesh.tets.push_back(of.tets[index_of(t)]);
     locator.emplace(mesh);
   }
   FoundAmong(const FoundAmong&) = delete;
@@ -150,10 +149,10 @@ class Composer {
       for (int piece = 0; piece < pieces_; ++piece) {
         double given = 0;
         for (const int c : near) {
-          if (piece_of(as_index(c)) != piece) continue;
+          if (piece_of(index_of(c)) != piece) continue;
           const auto coarse = corners_of(coarser_, c);
           const double volume = rest * common_volume(fine, coarse);
-          left_[as_index(c)] -= volume / volume_of_corners(coarse), given += volume;
+          left_[index_of(c)] -= volume / volume_of_corners(coarse), given += volume;
         }
         rest = std::max(0., rest - given / volume_of_corners(fine));
         result_.covered_volume += given;
@@ -210,16 +209,16 @@ class Composer {
       }
     std::vector<char> on_boundary(part_.vertices.size(), 0);
     for (const auto& t : boundary_)
-      for (const int v : t) on_boundary[as_index(v)] = 1;
+      for (const int v : t) on_boundary[index_of(v)] = 1;
     for (const int v : border_) {
       const Located found = located(among, v);
       Weights weights = found.weights;
       double sum = 0;
       for (double& w : weights) sum += w = std::abs(w) < weight_rounding ? 0 : w;
       for (double& w : weights) w /= sum;
-      of_.push_back(coarser_.tets[as_index(found.tet)]), weights_.push_back(weights);
-      followed_.push_back(found.tet), on_boundary[as_index(v)] = 0;
-      double& left = left_[as_index(found.tet)];
+      of_.push_back(coarser_.tets[index_of(found.tet)]), weights_.push_back(weights);
+      followed_.push_back(found.tet), on_boundary[index_of(v)] = 0;
+      double& left = left_[index_of(found.tet)];
       left = std::max(left, least_part);
     }
     for (std::size_t v = 0; v < on_boundary.size(); ++v)
@@ -229,13 +228,13 @@ class Composer {
 
   // Returns where a vertex of the part is in the coarser mesh
   Located located(const std::vector<std::unique_ptr<FoundAmong>>& among, int v) const {
-    const Point& place = part_.vertices[as_index(v)];
+    const Point& place = part_.vertices[index_of(v)];
     Located nearest;
     nearest.distance = std::numeric_limits<double>::infinity();
     for (const auto& some : among) {
       if (!some->locator) continue;
       Located found = some->locator->locate(place);
-      found.tet = some->tet[as_index(found.tet)];
+      found.tet = some->tet[index_of(found.tet)];
       if (found.distance < nearest.distance) nearest = found;
       if (found.distance == 0) break;
     }
@@ -255,7 +254,7 @@ class Composer {
     for (std::size_t i = 0; i < border_.size(); ++i) {
       const auto heaviest = std::ranges::max_element(weights_[i]) - weights_[i].begin();
       for (std::size_t k = 0; k < 4; ++k) {
-        if (follows[as_index(of_[i][k])] == 0) continue;
+        if (follows[index_of(of_[i][k])] == 0) continue;
         if (weights_[i][k] != 0) refuse_chain(i);
         of_[i][k] = of_[i][static_cast<std::size_t>(heaviest)];
       }
@@ -263,10 +262,10 @@ class Composer {
   }
 
   [[noreturn]] void refuse_chain(std::size_t i) const {
-    const Point& place = part_.vertices[as_index(border_[i])];
+    const Point& place = part_.vertices[index_of(border_[i])];
     double least = std::numeric_limits<double>::infinity();
     for (const int v : coarser_.followers.vertex)
-      least = std::min(least, (coarser_.vertices[as_index(v)] - place).norm());
+      least = std::min(least, (coarser_.vertices[index_of(v)] - place).norm());
     throw InputError("the part's border at " + place_text(place) + " is " +
                      number(least / mean_edge_length(coarser_, followed_[i]), 2) +
                      " edges from the border of the next level; expected 1 or more");
@@ -279,7 +278,7 @@ class Composer {
       if (left_[c] < least_part) continue;
       kept_.push_back(static_cast<int>(c));
       if (left_[c] < coarser_.part(c)) ++result_.cut;
-      for (const int v : coarser_.tets[c]) number_[as_index(v)] = 0;
+      for (const int v : coarser_.tets[c]) number_[index_of(v)] = 0;
     }
     result_.dropped = static_cast<int>(coarser_.tets.size() - kept_.size());
     TetMesh& mesh = result_.mesh = part_;
@@ -291,9 +290,9 @@ class Composer {
     bool whole = true;
     mesh.piece.assign(part_.tets.size(), 0), mesh.filled.assign(part_.tets.size(), 1);
     for (const int c : kept_) {
-      mesh.tets.push_back(renumbered_tet(coarser_.tets[as_index(c)]));
-      mesh.piece.push_back(1 + piece_of(as_index(c)));
-      mesh.filled.push_back(left_[as_index(c)]), whole = whole && left_[as_index(c)] == 1;
+      mesh.tets.push_back(renumbered_tet(coarser_.tets[index_of(c)]));
+      mesh.piece.push_back(1 + piece_of(index_of(c)));
+      mesh.filled.push_back(left_[index_of(c)]), whole = whole && left_[index_of(c)] == 1;
     }
     if (whole) mesh.filled.clear();
     join_regions(mesh);
@@ -301,7 +300,7 @@ class Composer {
   }
 
   std::array<int, 4> renumbered_tet(std::array<int, 4> tet) const {
-    for (int& v : tet) v = number_[as_index(v)];
+    for (int& v : tet) v = number_[index_of(v)];
     return tet;
   }
 
@@ -319,7 +318,7 @@ class Composer {
     if (coarser_.region.empty()) numbers = {number_of("")};
     for (const int c : kept_)
       mesh.region.push_back(
-          numbers[coarser_.region.empty() ? 0 : as_index(coarser_.region[as_index(c)])]);
+          numbers[coarser_.region.empty() ? 0 : index_of(coarser_.region[index_of(c)])]);
   }
 
   void join_names(TetMesh& mesh) const {
@@ -328,15 +327,15 @@ class Composer {
     for (auto& [name, vectors] : mesh.tet_vectors) {
       vectors.resize(part_.tets.size(), Point::Zero());
       if (const auto own = coarser_.tet_vectors.find(name); own != coarser_.tet_vectors.end())
-        for (const int c : kept_) vectors.push_back(own->second[as_index(c)]);
+        for (const int c : kept_) vectors.push_back(own->second[index_of(c)]);
       vectors.resize(count, Point::Zero());
     }
     for (const auto& [name, set] : coarser_.vertex_sets)
       for (const int v : set)
-        if (number_[as_index(v)] >= 0) mesh.vertex_sets[name].push_back(number_[as_index(v)]);
+        if (number_[index_of(v)] >= 0) mesh.vertex_sets[name].push_back(number_[index_of(v)]);
     for (const auto& [name, set] : coarser_.triangle_sets)
       for (auto triangle : set) {
-        for (int& v : triangle) v = number_[as_index(v)];
+        for (int& v : triangle) v = number_[index_of(v)];
         if (std::ranges::min(triangle) >= 0) mesh.triangle_sets[name].push_back(triangle);
       }
   }
@@ -347,19 +346,19 @@ class Composer {
     for (const auto& masters : of_) all.of.push_back(renumbered_tet(masters));
     const Followers& before = coarser_.followers;
     for (std::size_t i = 0; i < before.vertex.size(); ++i) {
-      const int own = number_[as_index(before.vertex[i])];
+      const int own = number_[index_of(before.vertex[i])];
       if (own < 0) continue;
       all.vertex.push_back(own), all.weight.push_back(before.weight[i]);
       all.of.push_back(renumbered_tet(before.of[i]));
       if (std::ranges::min(all.of.back()) < 0)
         throw InputError("the part's border crosses that of the next level near " +
-                         place_text(coarser_.vertices[as_index(before.vertex[i])]) +
+                         place_text(coarser_.vertices[index_of(before.vertex[i])]) +
                          "; expected it inside, an edge or more from it");
     }
     std::vector<double> volumes(result_.mesh.vertices.size(), 0);
     for (std::size_t t = 0; t < result_.mesh.tets.size(); ++t)
       for (const int v : result_.mesh.tets[t])
-        volumes[as_index(v)] +=
+        volumes[index_of(v)] +=
             result_.mesh.part(t) * volume_of_corners(corners_of(result_.mesh, static_cast<int>(t)));
     give_to_masters(all, volumes);
     const std::vector<char> follows = follows_others(result_.mesh);
@@ -381,16 +380,16 @@ class Composer {
     kept.vertices = coarser_.vertices;
     std::vector<char> cut(coarser_.vertices.size(), 0);  // vertices of tetrahedra that are cut
     for (const int c : kept_) {
-      kept.tets.push_back(coarser_.tets[as_index(c)]);
-      if (left_[as_index(c)] < coarser_.part(as_index(c)))
-        for (const int v : kept.tets.back()) cut[as_index(v)] = 1;
+      kept.tets.push_back(coarser_.tets[index_of(c)]);
+      if (left_[index_of(c)] < coarser_.part(index_of(c)))
+        for (const int v : kept.tets.back()) cut[index_of(v)] = 1;
     }
     for (auto face : boundary_triangles(kept)) {
       auto key = face;
       std::ranges::sort(key);
-      const bool may_be = std::ranges::all_of(face, [&](int v) { return cut[as_index(v)] != 0; });
+      const bool may_be = std::ranges::all_of(face, [&](int v) { return cut[index_of(v)] != 0; });
       if (std::ranges::binary_search(skin, key) && !(may_be && is_covered(face, cover))) continue;
-      for (int& v : face) v = number_[as_index(v)];
+      for (int& v : face) v = number_[index_of(v)];
       faces.push_back(face);
     }
     faces = sorted_triangles(std::move(faces));
@@ -398,9 +397,9 @@ class Composer {
 
   // Returns whether the part covers more than half of a face of the coarser mesh
   bool is_covered(const std::array<int, 3>& face, const Cover& cover) const {
-    const Point &a = coarser_.vertices[as_index(face[0])],
-                &b = coarser_.vertices[as_index(face[1])],
-                &c = coarser_.vertices[as_index(face[2])];
+    const Point &a = coarser_.vertices[index_of(face[0])],
+                &b = coarser_.vertices[index_of(face[1])],
+                &c = coarser_.vertices[index_of(face[2])];
     const double edge = ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3;
     int all = 0, covered = 0;
     for (int i = 0; i < samples; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <numeric>
+#include <plica/core/row_ranges.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/cut.hpp>
 #include <tuple>
@@ -11,8 +12,6 @@ namespace plica {
 namespace {
 
 using Tets = std::vector<std::array<int, 4>>;
-
-std::size_t at_number(int number) { return static_cast<std::size_t>(number); }
 
 /// A face as one of its two tetrahedra has it.
 struct TetFace {
@@ -27,7 +26,7 @@ struct TetFace {
 TetFace face_of(const Tets& tets, int tet, int across) {
   TetFace face{{}, 4 * tet + across};
   for (int k = 0, i = 0; k < 4; ++k)
-    if (k != across) face.vertices[at_number(i++)] = tets[at_number(tet)][at_number(k)];
+    if (k != across) face.vertices[index_of(i++)] = tets[index_of(tet)][index_of(k)];
   std::sort(face.vertices.begin(), face.vertices.end());
   return face;
 }
@@ -80,13 +79,13 @@ class Groups {
   }
   /// Returns the lowest number of a group.
   int of(int i) {
-    while (parent_[at_number(i)] != i)
-      i = parent_[at_number(i)] = parent_[at_number(parent_[at_number(i)])];
+    while (parent_[index_of(i)] != i)
+      i = parent_[index_of(i)] = parent_[index_of(parent_[index_of(i)])];
     return i;
   }
   void join(int i, int j) {
     i = of(i), j = of(j);
-    parent_[at_number(std::max(i, j))] = std::min(i, j);
+    parent_[index_of(std::max(i, j))] = std::min(i, j);
   }
 
  private:
@@ -145,10 +144,10 @@ Faces faces_across(const Tets& tets, const std::vector<Point>& positions, const 
   for (std::size_t i = 0; i < triangles.size(); ++i)
     boxes[i] = bounding_box(std::vector<Point>(triangles[i].at.begin(), triangles[i].at.end()));
   for (std::size_t e = 0; e < tets.size(); ++e) {
-    Box box{positions[at_number(tets[e][0])], positions[at_number(tets[e][0])]};
+    Box box{positions[index_of(tets[e][0])], positions[index_of(tets[e][0])]};
     for (const int v : tets[e]) {
-      box.min = box.min.cwiseMin(positions[at_number(v)]);
-      box.max = box.max.cwiseMax(positions[at_number(v)]);
+      box.min = box.min.cwiseMin(positions[index_of(v)]);
+      box.max = box.max.cwiseMax(positions[index_of(v)]);
     }
     // A line between two centroids may leave both tetrahedra, by less than one of them is large.
     const Point size = box.max - box.min;
@@ -158,7 +157,7 @@ Faces faces_across(const Tets& tets, const std::vector<Point>& positions, const 
   }
   const auto centroid = [&](int face) {
     Point sum = Point::Zero();
-    for (const int v : tets[at_number(face / 4)]) sum += positions[at_number(v)];
+    for (const int v : tets[index_of(face / 4)]) sum += positions[index_of(v)];
     return Point(sum / 4);
   };
   Faces opened;
@@ -179,7 +178,7 @@ CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
   CutMesh cut{mesh, {}};
   std::vector<char> touched(mesh.vertices.size(), 0);
   for (const int face : open)
-    for (const int v : face_of(mesh.tets, face / 4, face % 4).vertices) touched[at_number(v)] = 1;
+    for (const int v : face_of(mesh.tets, face / 4, face % 4).vertices) touched[index_of(v)] = 1;
   // corners of tetrahedra at these vertices, 4 tet + corner, and the faces there
   std::vector<std::pair<int, int>> corners;  // vertex, corner
   std::vector<int> place(4 * mesh.tets.size(), -1);
@@ -189,7 +188,7 @@ CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
     const int tet = static_cast<int>(e);
     bool any = false;
     for (int k = 0; k < 4; ++k)
-      if (const int v = mesh.tets[e][at_number(k)]; touched[at_number(v)] != 0)
+      if (const int v = mesh.tets[e][index_of(k)]; touched[index_of(v)] != 0)
         corners.emplace_back(v, 4 * tet + k), any = true;
     if (!any) continue;
     around.push_back(tet);
@@ -197,17 +196,17 @@ CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
   }
   std::sort(corners.begin(), corners.end());
   for (std::size_t i = 0; i < corners.size(); ++i)
-    place[at_number(corners[i].second)] = static_cast<int>(i);
+    place[index_of(corners[i].second)] = static_cast<int>(i);
   Groups groups(corners.size());
   const auto place_of = [&](int face, int v) {
-    const auto& tet = mesh.tets[at_number(face / 4)];
+    const auto& tet = mesh.tets[index_of(face / 4)];
     const auto corner = std::find(tet.begin(), tet.end(), v) - tet.begin();
-    return place[at_number(face / 4 * 4 + static_cast<int>(corner))];
+    return place[index_of(face / 4 * 4 + static_cast<int>(corner))];
   };
   for_inner_faces(std::move(faces), [&](int a, int b) {
     if (std::binary_search(open.begin(), open.end(), a)) return;
     for (const int v : face_of(mesh.tets, a / 4, a % 4).vertices)
-      if (touched[at_number(v)] != 0) groups.join(place_of(a, v), place_of(b, v));
+      if (touched[index_of(v)] != 0) groups.join(place_of(a, v), place_of(b, v));
   });
   std::vector<int> number(corners.size());  // vertex of each group, at its lowest corner
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -216,12 +215,12 @@ CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
     const bool first = i == 0 || corners[i - 1].first != v;
     if (group == static_cast<int>(i) && !first) {
       number[i] = static_cast<int>(cut.mesh.vertices.size());
-      cut.mesh.vertices.push_back(mesh.vertices[at_number(v)]);
+      cut.mesh.vertices.push_back(mesh.vertices[index_of(v)]);
       cut.twin.push_back(v);
     } else if (first) {
       number[i] = v;
     }
-    cut.mesh.tets[at_number(corner / 4)][at_number(corner % 4)] = number[at_number(group)];
+    cut.mesh.tets[index_of(corner / 4)][index_of(corner % 4)] = number[index_of(group)];
   }
   follow_sets(cut.mesh, static_cast<int>(mesh.vertices.size()), cut.twin);
   follow_triangles(cut.mesh, mesh.tets, around);
@@ -260,33 +259,33 @@ std::vector<int> boundary_vertices_of(const TriangleSurface& surface, const TetM
 
 void follow_cut(const TetMesh& mesh, TriangleSurface& surface, std::vector<int>& vertex) {
   std::vector<int> point(mesh.vertices.size(), -1);
-  for (std::size_t p = 0; p < vertex.size(); ++p) point[at_number(vertex[p])] = static_cast<int>(p);
+  for (std::size_t p = 0; p < vertex.size(); ++p) point[index_of(vertex[p])] = static_cast<int>(p);
   surface.triangles = boundary_triangles(mesh);
   surface.texture.clear();
   std::vector<char> is_new(mesh.vertices.size(), 0);
   for (const auto& triangle : surface.triangles)
-    for (const int v : triangle) is_new[at_number(v)] = point[at_number(v)] < 0 ? 1 : 0;
+    for (const int v : triangle) is_new[index_of(v)] = point[index_of(v)] < 0 ? 1 : 0;
   for (std::size_t v = 0; v < is_new.size(); ++v) {
     if (is_new[v] == 0) continue;
     point[v] = static_cast<int>(vertex.size());
     vertex.push_back(static_cast<int>(v)), surface.vertices.push_back(mesh.vertices[v]);
   }
   for (auto& triangle : surface.triangles)
-    for (int& v : triangle) v = point[at_number(v)];
+    for (int& v : triangle) v = point[index_of(v)];
 }
 
 Embedding embed_at_vertices(const TetMesh& mesh, const std::vector<int>& vertex) {
   std::vector<int> corner(mesh.vertices.size(), -1);
   for (std::size_t e = mesh.tets.size(); e-- > 0;)
     for (std::size_t k = 0; k < 4; ++k)
-      corner[at_number(mesh.tets[e][k])] = static_cast<int>(4 * e + k);
+      corner[index_of(mesh.tets[e][k])] = static_cast<int>(4 * e + k);
   Embedding embedding;
   embedding.outside.resize(vertex.size(), 0);
   for (const int v : vertex) {
-    const int at = corner[at_number(v)];
-    embedding.vertices.push_back(mesh.tets[at_number(at / 4)]);
+    const int at = corner[index_of(v)];
+    embedding.vertices.push_back(mesh.tets[index_of(at / 4)]);
     embedding.weights.push_back({});
-    embedding.weights.back()[at_number(at % 4)] = 1;
+    embedding.weights.back()[index_of(at % 4)] = 1;
   }
   return embedding;
 }

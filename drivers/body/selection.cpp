@@ -122,10 +122,6 @@ std::vector<int> vertices_of(const TetMesh& mesh, int region) {
   return chosen;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<int> named_vertices(const TetMesh& mesh, const std::string& name, bool group,
                                 const Selecting& who) {
   const auto set = mesh.vertex_sets.find(name);

@@ -5,6 +5,7 @@
 #include <plica/core/grouping.hpp>
 #include <plica/core/mesh.hpp>
 #include <plica/core/model.hpp>
+#include <plica/meshes/composite.hpp>
 #include <utility>
 #include <vector>
 
@@ -77,8 +78,7 @@ VertexShares<B> with_followers(const VertexShares<B>& own, const TetMesh& mesh) 
   if (mesh.followers.vertex.empty()) return own;
   const auto old_first = on_host(own.first), old_row = on_host(own.row);
   const std::size_t n = mesh.vertices.size();
-  std::vector<char> follows(n, 0);
-  for (const int v : mesh.followers.vertex) follows[index_of(v)] = 1;
+  const std::vector<char> follows = follows_others(mesh);
   const auto of = followers_of_vertices(mesh.followers, n);
   std::vector<int> first{0}, row;
   std::vector<typename B::Real> weight;

@@ -6,14 +6,8 @@ import numpy as np
 import plica
 import pytest
 
-CUBE = {
-    "duration": "1 s",
-    "gravity": [0, 0, -9.81],
-    "body": {
-        "levels": [{"box": {"size": [0.1, 0.1, 0.1], "cells": [4, 4, 4]}}],
-        "fixed": [{"half_space": {"normal": [0, 0, 1]}}],
-    },
-}
+from cube import CUBE
+
 OCTAHEDRON = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
 FACES = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]])
 

@@ -18,17 +18,11 @@ import numpy as np
 import plica
 import pytest
 
+from cube import CUBE
+
 SOURCES = Path(os.environ["PLICA_SOURCE_DIR"])
 SMALLEST = SOURCES / "drivers" / "scenes" / "smallest.yaml"
 
-CUBE = {
-    "duration": "1 s",
-    "gravity": [0, 0, -9.81],
-    "body": {
-        "levels": [{"box": {"size": [0.1, 0.1, 0.1], "cells": [4, 4, 4]}}],
-        "fixed": [{"half_space": {"normal": [0, 0, 1]}}],
-    },
-}
 SLAB = {
     "duration": 1,
     "body": {
