@@ -52,6 +52,8 @@ struct TetMesh {
   /// Faces of one tetrahedron that are no boundary of the body, as at borders between pieces: each
   /// by its ascending vertices, all ascending
   std::vector<std::array<int, 3>> inner_faces = {};
+  /// Faces that cuts have opened, of both sides: each by its ascending vertices, all ascending
+  std::vector<std::array<int, 3>> opened = {};
 
   /// Returns the part of a tetrahedron that is body. Its mass, stiffness and energy are this part
   /// of what its volume would have.

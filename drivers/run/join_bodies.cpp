@@ -182,6 +182,7 @@ class Joiner {
     to.followers.weight.insert(to.followers.weight.end(), mesh.followers.weight.begin(),
                                mesh.followers.weight.end());
     for (const auto& face : mesh.inner_faces) to.inner_faces.push_back(moved(face));
+    for (const auto& face : mesh.opened) to.opened.push_back(moved(face));
   }
 
   static void add_mesh(const std::string& name, const TetMesh& mesh, const Point& shift,
