@@ -101,6 +101,26 @@ void carry_stresses(const typename B::Exec& exec, const LevelData<B>& before,
   copy(exec, now.stress.memory, to_device<Scalars<B>>("carried", own));
 }
 
+/// Returns of each point that a surface has gained the point at the vertex that its own was before;
+/// -1: that was inside the body.
+/// @param vertex    vertex at each point
+/// @param points    number of points before
+/// @param vertices  number of vertices before
+/// @param twin      of each vertex that is new, the one that it was before, which may be new as well
+std::vector<int> former_points(const std::vector<int>& vertex, int points, int vertices,
+                               const std::vector<int>& twin) {
+  std::map<int, int> point_at;
+  for (int p = 0; p < points; ++p) point_at[vertex[index_of(p)]] = p;
+  std::vector<int> former;
+  for (std::size_t p = index_of(points); p < vertex.size(); ++p) {
+    int v = vertex[p];
+    while (v >= vertices) v = twin[index_of(v - vertices)];
+    const auto found = point_at.find(v);
+    former.push_back(found == point_at.end() ? -1 : found->second);
+  }
+  return former;
+}
+
 /// Adds the triangles that a blade sweeps between two times [s], along a straight way.
 void sweep(const BladeOptions& blade, double from, double to, Blade& all) {
   std::vector<PathKnot> knots;
@@ -281,7 +301,10 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   if (is.viscosity) carry_stresses<B>(exec, was, is, twin), is.viscosity->set_time(before.time);
   is.set_evaluations(was.evaluations());
   if (const Contact<B>* contact = is.contact()) {
-    contact->take_memory(exec, *was.contact());
+    const Contact<B>& touched = *was.contact();
+    contact->take_memory(
+        exec, touched,
+        former_points(problem.body.surface_vertex, touched.points(), was.model.vertices, twin));
     is.response().take_work(exec, was.response());
   }
   hierarchy().clock = before.hierarchy().clock;
