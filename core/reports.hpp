@@ -143,7 +143,7 @@ struct HeldBy {
 
 /// Reason why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  /// Kind: non_finite | inverted | energy | speed | contact | solver | stability
+  /// Kind: non_finite | inverted | energy | speed | contact | solver | stability | cut
   std::string kind;
   int level = -1;      ///< 0: the finest
   int element = -1;    ///< tetrahedron of that level

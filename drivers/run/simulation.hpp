@@ -303,6 +303,8 @@ class Simulation {
 
   bool repair(const Diagnosis& bad);
   void cut_ahead();
+  /// Cuts as cut_ahead() does. Returns a diagnosis where no stable step is left after it.
+  std::optional<Diagnosis> cut_checked();
 };
 
 }  // namespace plica
