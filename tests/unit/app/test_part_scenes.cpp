@@ -97,8 +97,14 @@ TEST(PartScenes, OneOfSeveralBodiesMayHaveAPart) {
 TEST(PartScenes, SayWhatIsWrongAndWhere) {
   const auto error = [](const std::string& levels) { return error_of(scene_with(levels)); };
   EXPECT_EQ(error(whole + "    - {refine: " + ball + "}\n"),
-            "a.yaml:6: body.levels.1.covers: the last level covers a part; expected a coarser one "
-            "of the whole body after it");
+            "a.yaml:6: body.levels.1.refine: the last level has none after it to refine; expected a "
+            "coarser one of the whole body after it");
+  EXPECT_EQ(error(whole + "    - {box: {size: [1, 1, 1], cells: [2, 2, 2]}, covers: part}\n"),
+            "a.yaml:6: body.levels.1.covers: the last level covers a part; expected a coarser one of "
+            "the whole body after it");
+  EXPECT_EQ(error("    - {refine: {nearest: [0.2, 0.05, 0]}}\n" + whole),
+            "a.yaml:5: body.levels.0.refine.nearest: one element is no part; expected sphere, box, "
+            "half_space or region");
   EXPECT_EQ(error("    - {box: {size: [1, 1, 1], cells: [2, 2, 2]}, covers: all}\n" + whole),
             "a.yaml:5: body.levels.0.covers: expected part, or a map such as {sphere: {centre: "
             "[0, 0, 0], radius: 1 cm}}, got 'all'");
