@@ -26,6 +26,12 @@ struct Followers {
   std::vector<std::array<double, 4>> weight;
 };
 
+/// What finer pieces have taken from a piece of a mesh.
+struct PieceCover {
+  int dropped = 0;    ///< tetrahedra that are left out
+  double volume = 0;  ///< volume that finer pieces have in common with it [m^3]
+};
+
 /// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver
 /// every tetrahedron with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and
 /// every vertex used.
@@ -47,6 +53,8 @@ struct TetMesh {
   /// Number of the piece of each tet, 0 the finest; empty: one piece. Pieces have no vertex in
   /// common and share room where a tet is filled in part, see compose()
   std::vector<int> piece = {};
+  /// What each piece has lost to finer ones, by its number; empty: not known
+  std::vector<PieceCover> covered = {};
   /// Vertices of borders between pieces, which follow the coarser one
   Followers followers = {};
   /// Faces of one tetrahedron that are no boundary of the body, as at borders between pieces: each

@@ -40,7 +40,9 @@ struct PieceReport {
   int tets = 0;             ///< tetrahedra
   int followers = 0;        ///< vertices that follow a coarser piece
   int cut = 0;              ///< tetrahedra that count in part, since a finer piece covers the rest
+  int dropped = 0;          ///< tetrahedra that are left out, since finer pieces cover them
   double mass = 0;          ///< mass that is not covered by finer pieces [kg]
+  double covered = 0;       ///< volume that finer pieces cover [m^3]
   double least_filled = 1;  ///< smallest part of a tetrahedron that counts
 };
 

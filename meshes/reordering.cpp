@@ -125,6 +125,7 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     for (auto& triangle : set)
       for (int& v : triangle) v = new_number[static_cast<std::size_t>(v)];
   result.piece = permuted(mesh.piece, order.tets);
+  result.covered = mesh.covered;
   result.inner_faces = mesh.inner_faces, result.opened = mesh.opened;
   for (auto* faces : {&result.inner_faces, &result.opened}) {
     for (auto& face : *faces) {
