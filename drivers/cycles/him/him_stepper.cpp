@@ -32,7 +32,7 @@ void HimStepper<B>::plan(StepperSetup<B>& setup) {
   std::vector<HimParts<B>> bodies = him_parts<B>(setup);
   double usual = 0;
   bool fits = true;
-  if (setup.goes_on && may_repair_) {
+  if (setup.goes_on && may_repair_ && setup.problem.integration.macro_step) {
     setup.macro_step = *setup.problem.integration.macro_step;
     fits = fit_given_step<B>(setup, bodies);
   } else {
