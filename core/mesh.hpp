@@ -26,7 +26,7 @@ struct Followers {
   std::vector<std::array<double, 4>> weight;
 };
 
-/// What finer pieces have taken from a piece of a mesh.
+/// Losses of a piece of a mesh to finer pieces.
 struct PieceCover {
   int dropped = 0;    ///< tetrahedra that are left out
   double volume = 0;  ///< volume that finer pieces have in common with it [m^3]
@@ -53,7 +53,7 @@ struct TetMesh {
   /// Number of the piece of each tet, 0 the finest; empty: one piece. Pieces have no vertex in
   /// common and share room where a tet is filled in part, see compose()
   std::vector<int> piece = {};
-  /// What each piece has lost to finer ones, by its number; empty: not known
+  /// Losses of each piece to finer ones, by its number; empty: not known
   std::vector<PieceCover> covered = {};
   /// Vertices of borders between pieces, which follow the coarser one
   Followers followers = {};

@@ -7,9 +7,9 @@
 
 namespace plica {
 
-/// Where the edge of a blade has come to in a body, which carries it. So what a blade sweeps in one
-/// step begins where it ended in the step before, also where the body has moved in between: nothing
-/// is left between the two, and nothing is cut twice.
+/// Front of a cut: the place of a blade's edge in a body, which carries it. What a blade sweeps in
+/// one step thus begins where it ended in the step before, also where the body has moved in
+/// between: nothing is left between the two, and nothing is cut twice.
 ///
 /// The edge is divided by places at equal distances. Each is in a tetrahedron at fixed weights, or
 /// outside the body, where nothing carries it.

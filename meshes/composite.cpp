@@ -132,7 +132,7 @@ class Composer {
   std::vector<int> border_;             // vertices of the border, ascending
   std::vector<double> left_;            // per coarser tetrahedron, the part that counts
   int pieces_ = 1;                      // number of pieces of the coarser mesh
-  std::vector<PieceCover> covered_;     // what each of these has lost to finer ones
+  std::vector<PieceCover> covered_;     // losses of each of these to finer ones
   std::vector<int> kept_, number_;      // kept coarser tets; per coarser vertex its new number
   std::vector<std::array<int, 4>> of_;  // per border vertex, coarser vertices
   std::vector<Weights> weights_;

@@ -20,7 +20,7 @@ struct Selecting {
   int level = 0;
 };
 
-/// Whether faces that cuts have opened are chosen among the boundary triangles.
+/// Choice of faces that cuts have opened, among the boundary triangles.
 enum class OpenedFaces {
   left_out,  ///< no: the surface that the body had before all cuts
   included   ///< yes

@@ -241,7 +241,8 @@ std::optional<Diagnosis> Simulation<B>::cut_checked() {
   } catch (const InputError& error) {
     Diagnosis refused;
     refused.kind = "cut", refused.level = 0, refused.reason = error.what();
-    const Impl& s = *impl_;
+    Impl& s = *impl_;
+    s.keep(s.kept);  // the state is good, only the next step is not
     for (std::size_t i = 0; i < s.fronts.size(); ++i) {
       if (!s.fronts[i]) continue;
       const CutOptions& each = s.problem.cuts[i];

@@ -212,9 +212,10 @@ TEST(AfterCuts, ACutWithoutAStableStepIsDiagnosed) {
   EXPECT_NE(bad->reason.find("times its critical step"), std::string::npos) << bad->text();
   ASSERT_GE(bad->vertex, 0);
   EXPECT_NEAR(s.positions()[static_cast<std::size_t>(bad->vertex)][0], 0.11, edge);
-  EXPECT_LT(s.time(), 4e-3);
+  const double time = s.time();
+  EXPECT_LT(time, 4e-3);
   s.return_to_last_good();
-  EXPECT_TRUE(std::isfinite(s.positions()[0][0]));
+  EXPECT_EQ(s.time(), time);
 }
 
 }  // namespace
