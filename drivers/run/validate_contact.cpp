@@ -155,9 +155,11 @@ void validate_contact(const Problem& problem) {
                        std::to_string(other->second) + "; expected names that differ");
   }
   for (std::size_t i = 0; i < obstacles.size(); ++i)
-    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
-      (solid->thickness > 0 ? check_triangles : check_closed)(
-          "contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
+    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape)) {
+      const std::string option = "contact.obstacles." + std::to_string(i) + ".surface";
+      solid->thickness > 0 ? check_triangles(option, solid->surface)
+                           : check_closed(option, solid->surface);
+    }
   for (const BodyPart& part : problem.body.parts)
     if (const auto other = named.find(part.name); other != named.end())
       throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" +
