@@ -263,6 +263,8 @@ void describe(V& v, LoadOptions& o) {
   v.alternative(
       "enclosed_volume", as<EnclosedVolume>(o.load), Group{},
       "of the cavity on the outer side of these triangles, by the pressure of a fluid in it");
+  v("on_cuts", o.on_cuts, Flag{},
+    "tractions and pressures also act on faces that cuts open, with all their vertices chosen");
   v.at_most_one();
   v.alternative("ramp", as<&RampCourse::duration>(o.course), Quantity{duration, positive},
                 "rises smoothly from zero within this time");

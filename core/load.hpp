@@ -75,6 +75,9 @@ struct LoadOptions {
   /// Load on the chosen vertices
   std::variant<Traction, TotalForce, FollowerPressure, EnclosedVolume> load;
   LoadCourse course;  ///< factor of the load over time
+  /// True: tractions and pressures also act on faces that cuts open, where their vertices are
+  /// chosen
+  bool on_cuts = false;
 };
 
 }  // namespace plica

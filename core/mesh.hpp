@@ -26,6 +26,12 @@ struct Followers {
   std::vector<std::array<double, 4>> weight;
 };
 
+/// Losses of a piece of a mesh to finer pieces.
+struct PieceCover {
+  int dropped = 0;    ///< tetrahedra that are left out
+  double volume = 0;  ///< volume that finer pieces have in common with it [m^3]
+};
+
 /// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver
 /// every tetrahedron with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and
 /// every vertex used.
@@ -47,11 +53,15 @@ struct TetMesh {
   /// Number of the piece of each tet, 0 the finest; empty: one piece. Pieces have no vertex in
   /// common and share room where a tet is filled in part, see compose()
   std::vector<int> piece = {};
+  /// Losses of each piece to finer ones, by its number; empty: not known
+  std::vector<PieceCover> covered = {};
   /// Vertices of borders between pieces, which follow the coarser one
   Followers followers = {};
   /// Faces of one tetrahedron that are no boundary of the body, as at borders between pieces: each
   /// by its ascending vertices, all ascending
   std::vector<std::array<int, 3>> inner_faces = {};
+  /// Faces that cuts have opened, of both sides: each by its ascending vertices, all ascending
+  std::vector<std::array<int, 3>> opened = {};
 
   /// Returns the part of a tetrahedron that is body. Its mass, stiffness and energy are this part
   /// of what its volume would have.

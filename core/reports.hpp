@@ -40,7 +40,9 @@ struct PieceReport {
   int tets = 0;             ///< tetrahedra
   int followers = 0;        ///< vertices that follow a coarser piece
   int cut = 0;              ///< tetrahedra that count in part, since a finer piece covers the rest
+  int dropped = 0;          ///< tetrahedra that are left out, since finer pieces cover them
   double mass = 0;          ///< mass that is not covered by finer pieces [kg]
+  double covered = 0;       ///< volume that finer pieces cover [m^3]
   double least_filled = 1;  ///< smallest part of a tetrahedron that counts
 };
 
@@ -143,7 +145,7 @@ struct HeldBy {
 
 /// Reason why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  /// Kind: non_finite | inverted | energy | speed | contact | solver | stability
+  /// Kind: non_finite | inverted | energy | speed | contact | solver | stability | cut
   std::string kind;
   int level = -1;      ///< 0: the finest
   int element = -1;    ///< tetrahedron of that level

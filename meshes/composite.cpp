@@ -108,6 +108,8 @@ class Composer {
       left_.push_back(coarser.part(c));
       pieces_ = std::max(pieces_, 1 + piece_of(c));
     }
+    covered_ = coarser.covered;
+    covered_.resize(static_cast<std::size_t>(pieces_));
   }
 
   Composite made() {
@@ -130,6 +132,7 @@ class Composer {
   std::vector<int> border_;             // vertices of the border, ascending
   std::vector<double> left_;            // per coarser tetrahedron, the part that counts
   int pieces_ = 1;                      // number of pieces of the coarser mesh
+  std::vector<PieceCover> covered_;     // losses of each of these to finer ones
   std::vector<int> kept_, number_;      // kept coarser tets; per coarser vertex its new number
   std::vector<std::array<int, 4>> of_;  // per border vertex, coarser vertices
   std::vector<Weights> weights_;
@@ -154,6 +157,7 @@ class Composer {
           const double volume = rest * common_volume(fine, coarse);
           left_[index_of(c)] -= volume / volume_of_corners(coarse), given += volume;
         }
+        covered_[static_cast<std::size_t>(piece)].volume += given;
         rest = std::max(0., rest - given / volume_of_corners(fine));
         result_.covered_volume += given;
       }
@@ -275,7 +279,10 @@ class Composer {
   void join() {
     number_.assign(coarser_.vertices.size(), -1);
     for (std::size_t c = 0; c < left_.size(); ++c) {
-      if (left_[c] < least_part) continue;
+      if (left_[c] < least_part) {
+        ++covered_[static_cast<std::size_t>(piece_of(c))].dropped;
+        continue;
+      }
       kept_.push_back(static_cast<int>(c));
       if (left_[c] < coarser_.part(c)) ++result_.cut;
       for (const int v : coarser_.tets[c]) number_[index_of(v)] = 0;
@@ -295,6 +302,7 @@ class Composer {
       mesh.filled.push_back(left_[index_of(c)]), whole = whole && left_[index_of(c)] == 1;
     }
     if (whole) mesh.filled.clear();
+    mesh.covered = covered_, mesh.covered.insert(mesh.covered.begin(), PieceCover{});
     join_regions(mesh);
     join_names(mesh);
   }
@@ -424,7 +432,10 @@ class Composer {
         "the part changes the volume by " + number(100 * change / part, 3) + " % of its own, " +
         number(part, 4) + " m^3: its skin is not that of the coarser level";
     if (std::abs(change) > wrong_volume * part)
-      throw InputError(sentence + "; expected 10 % at most, or the name of its border");
+      throw InputError(
+          sentence +
+          "; expected 10 % at most: meshes with one skin, or with border, the group of "
+          "the part's vertices or triangles that is its border inside the body");
     if (std::abs(change) > doubtful_volume * part) result_.doubts.push_back(sentence);
   }
 

@@ -95,6 +95,12 @@ class Groups {
   std::vector<int> parent_;
 };
 
+/// Sorts triangles, and leaves each in once.
+void sort_once(std::vector<std::array<int, 3>>& triangles) {
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+}
+
 /// Adds to named sets the new vertices of their own.
 void follow_sets(TetMesh& mesh, int before, const std::vector<int>& twin) {
   for (auto& [name, set] : mesh.vertex_sets) {
@@ -105,10 +111,9 @@ void follow_sets(TetMesh& mesh, int before, const std::vector<int>& twin) {
   }
 }
 
-/// Replaces named triangles by the faces that they have become. `around`: the tetrahedra at all
-/// vertices that may have split.
+/// Replaces named triangles and open faces by the faces that they have become. `around`: the
+/// tetrahedra at all vertices that may have split.
 void follow_triangles(TetMesh& mesh, const Tets& before, const std::vector<int>& around) {
-  if (mesh.triangle_sets.empty()) return;
   // faces of these tetrahedra: as they were, and as they are
   std::vector<std::pair<std::array<int, 3>, std::array<int, 3>>> faces;
   for (const int tet : around)
@@ -116,7 +121,7 @@ void follow_triangles(TetMesh& mesh, const Tets& before, const std::vector<int>&
       faces.emplace_back(face_of(before, face).vertices, face_of(mesh.tets, face).vertices);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  for (auto& [name, set] : mesh.triangle_sets) {
+  const auto follow = [&](std::vector<std::array<int, 3>>& set) {
     std::vector<std::array<int, 3>> now;
     for (const auto& triangle : set) {
       std::array<int, 3> key = triangle;
@@ -126,7 +131,10 @@ void follow_triangles(TetMesh& mesh, const Tets& before, const std::vector<int>&
       for (; face != faces.end() && face->first == key; ++face) now.push_back(face->second);
     }
     set = std::move(now);
-  }
+  };
+  for (auto& [name, set] : mesh.triangle_sets) follow(set);
+  follow(mesh.opened);
+  sort_once(mesh.opened);
 }
 
 }  // namespace
@@ -181,8 +189,10 @@ Faces faces_across(const Tets& tets, const std::vector<Point>& positions, const 
 CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
   CutMesh cut{mesh, {}};
   std::vector<char> touched(mesh.vertices.size(), 0);
-  for (const std::int64_t face : open)
-    for (const int v : face_of(mesh.tets, face).vertices) touched[index_of(v)] = 1;
+  for (const std::int64_t face : open) {
+    cut.mesh.opened.push_back(face_of(mesh.tets, face).vertices);
+    for (const int v : cut.mesh.opened.back()) touched[index_of(v)] = 1;
+  }
   // corners of tetrahedra at these vertices, 4 tet + corner, and the faces there
   std::vector<std::pair<int, std::size_t>> corners;  // vertex, corner
   std::vector<int> place(4 * mesh.tets.size(), -1);

@@ -36,7 +36,7 @@ struct CutMesh {
 /// Opens faces of a mesh. At each vertex, the tetrahedra that faces still join keep one vertex
 /// together. The group with the lowest tetrahedron keeps the number; the others get new ones, in
 /// the order of vertices and of their lowest tetrahedra. Named sets get the new vertices of their
-/// own, named triangles both sides.
+/// own, named triangles both sides. TetMesh::opened gets both sides of all open faces.
 /// @param mesh  mesh without open faces
 /// @param open  all faces that are open, also those of earlier cuts; a face that opens alone,
 /// without a vertex that splits, opens together with later ones

@@ -135,12 +135,15 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     for (auto& triangle : set)
       for (int& v : triangle) v = new_number[static_cast<std::size_t>(v)];
   result.piece = permuted(mesh.piece, order.tets);
-  result.inner_faces = mesh.inner_faces;
-  for (auto& face : result.inner_faces) {
-    for (int& v : face) v = new_number[static_cast<std::size_t>(v)];
-    std::sort(face.begin(), face.end());
+  result.covered = mesh.covered;
+  result.inner_faces = mesh.inner_faces, result.opened = mesh.opened;
+  for (auto* faces : {&result.inner_faces, &result.opened}) {
+    for (auto& face : *faces) {
+      for (int& v : face) v = new_number[static_cast<std::size_t>(v)];
+      std::sort(face.begin(), face.end());
+    }
+    std::sort(faces->begin(), faces->end());
   }
-  std::sort(result.inner_faces.begin(), result.inner_faces.end());
   result.followers = renumbered(mesh.followers, new_number);
   return result;
 }

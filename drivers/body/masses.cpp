@@ -50,6 +50,8 @@ std::vector<PieceReport> piece_reports(const TetMesh& mesh, const std::vector<do
     one.least_filled = std::min(one.least_filled, mesh.part(e));
     for (const int v : mesh.tets[e]) piece_of[static_cast<std::size_t>(v)] = mesh.piece[e];
   }
+  for (std::size_t i = 0; i < std::min(pieces.size(), mesh.covered.size()); ++i)
+    pieces[i].dropped = mesh.covered[i].dropped, pieces[i].covered = mesh.covered[i].volume;
   for (const int v : mesh.followers.vertex)
     ++pieces[static_cast<std::size_t>(piece_of[static_cast<std::size_t>(v)])].followers;
   return pieces;

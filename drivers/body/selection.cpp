@@ -246,7 +246,7 @@ std::vector<std::array<int, 3>> expect_whole(const TetMesh& mesh,
 }  // namespace
 
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
-                                                 const Selecting& who) {
+                                                 const Selecting& who, OpenedFaces opened) {
   if (!mesh.filled.empty() && mesh.piece.empty())
     throw InputError(who.option + ": level " + std::to_string(who.level) +
                      " is a lattice, whose faces are not the body's; expected a force, contact, or "
@@ -258,9 +258,14 @@ std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Sele
   std::vector<char> in(mesh.vertices.size(), 0);
   for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;
   std::vector<std::array<int, 3>> chosen;
+  const auto may_be = [&](const std::array<int, 3>& t) {
+    return opened == OpenedFaces::included ||
+           !std::binary_search(mesh.opened.begin(), mesh.opened.end(), ascending(t));
+  };
   for (const auto& t : boundary_triangles(mesh))
     if (std::all_of(t.begin(), t.end(),
-                    [&](int v) { return in[static_cast<std::size_t>(v)] != 0; }))
+                    [&](int v) { return in[static_cast<std::size_t>(v)] != 0; }) &&
+        may_be(t))
       chosen.push_back(t);
   if (chosen.empty())
     throw InputError(

@@ -20,6 +20,12 @@ struct Selecting {
   int level = 0;
 };
 
+/// Choice of faces that cuts have opened, among the boundary triangles.
+enum class OpenedFaces {
+  left_out,  ///< no: the surface that the body had before all cuts
+  included   ///< yes
+};
+
 /// Returns the vertices of a mesh at rest that a selection chooses, ascending; at least one.
 /// Vertices that follow others are never chosen. Throws InputError where there is none, or no group
 /// of that name.
@@ -41,10 +47,12 @@ std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection
 
 /// Returns the boundary triangles that a selection chooses, at least one. These are the triangles
 /// of a group that has some (TetMesh::triangle_sets), else those all of whose vertices are chosen.
+/// Faces that cuts have opened are not chosen by their vertices, unless `opened` says so.
 /// Throws InputError where there is none, or no group of that name. Throws it also for a lattice,
 /// whose faces are not the body's.
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
-                                                 const Selecting& who);
+                                                 const Selecting& who,
+                                                 OpenedFaces opened = OpenedFaces::left_out);
 
 /// Gives a mesh at rest the regions that are chosen by a selection. Throws InputError where two
 /// choose one element, where one chooses none, or where the mesh has a region of that name of its

@@ -388,14 +388,20 @@ void Contact<B>::release(const Exec& exec, int obstacle) const {
 }
 
 template <class B>
-void Contact<B>::take_memory(const Exec& exec, const Contact& before) const {
+void Contact<B>::take_memory(const Exec& exec, const Contact& before,
+                             const std::vector<int>& former) const {
   if (memory_.extent(0) == 0) return;
   const std::vector<double> old = host_values(exec, before.memory_);
   std::vector<double> now = host_values(exec, memory_);
   std::copy_n(old.begin(), grasps_.first, now.begin());
   for (int o = 0; grasps_.places > 0 && o < obstacles(); ++o)
-    std::copy_n(old.begin() + before.grasps_.at(o * before.points_),
-                Grasps<B>::numbers * before.points_, now.begin() + grasps_.at(o * points_));
+    for (int p = 0; p < points_; ++p) {
+      const int from =
+          p < before.points_ ? p : former[static_cast<std::size_t>(p - before.points_)];
+      if (from >= 0)
+        std::copy_n(old.begin() + before.grasps_.at(o * before.points_ + from), Grasps<B>::numbers,
+                    now.begin() + grasps_.at(o * points_ + p));
+    }
   copy(exec, memory_, to_device<Doubles<B>>("contact.taken", now));
 }
 

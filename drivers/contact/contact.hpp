@@ -119,8 +119,8 @@ class Contact {
   /// points (see Attachments).
   const Doubles<B>& memory() const { return memory_; }
   /// Takes the memory of contact with the same obstacles, whose surface has the first of these
-  /// points. The others are not grasped.
-  void take_memory(const Exec&, const Contact& before) const;
+  /// points. `former`: point there of each further one, which is grasped as that one is; -1: none.
+  void take_memory(const Exec&, const Contact& before, const std::vector<int>& former) const;
   /// Grasps the points near an obstacle in the state of level 0, whose records these are.
   void grasp(const Exec&, const LevelData<B>&, double time, int obstacle,
              const ContactRecords<B>&) const;

@@ -24,8 +24,11 @@ struct StepperSetup {
   double eigenvalue;
   std::shared_ptr<const Contact<B>> contact;  ///< none without obstacles
   std::vector<LevelReport>& reports;          ///< all levels in use; completed by the plan
-  double macro_step = 0;                      ///< [s], set by the plan
-  std::optional<HimReport> him = {};          ///< set by the plan of the stepper `him`
+  /// True: the body goes on after a cut. Where the given macro step is not stable any more, a
+  /// stepper that can repair plans shorter steps within it
+  bool goes_on = false;
+  double macro_step = 0;              ///< [s], set by the plan
+  std::optional<HimReport> him = {};  ///< set by the plan of the stepper `him`
 };
 
 /// Method by which the levels take a macro step together.

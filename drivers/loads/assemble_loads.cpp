@@ -20,11 +20,18 @@ Point area_vector(const TetMesh& mesh, const std::array<int, 3>& t) {
   return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
 }
 
+/// Returns the boundary triangles that a load acts on.
+std::vector<std::array<int, 3>> loaded_triangles(const LoadOptions& load, const TetMesh& mesh,
+                                                 const Selecting& who) {
+  return select_triangles(mesh, load.where, who,
+                          load.on_cuts ? OpenedFaces::included : OpenedFaces::left_out);
+}
+
 /// Returns the forces of a pressure on the mesh at rest, per vertex [N].
-std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const Selection& where,
+std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const LoadOptions& load,
                                const Selecting& who) {
   std::map<int, Point> force;
-  for (const auto& t : select_triangles(mesh, where, who))
+  for (const auto& t : loaded_triangles(load, mesh, who))
     for (const int v : t)
       force.try_emplace(v, Point::Zero()).first->second -= pressure / 3 * area_vector(mesh, t);
   return force;
@@ -41,7 +48,7 @@ std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh,
                              const std::vector<double>& mass, const Selecting& who) {
   std::map<int, double> share;
   if (std::holds_alternative<Traction>(load.load)) {
-    for (const auto& t : select_triangles(mesh, load.where, who))
+    for (const auto& t : loaded_triangles(load, mesh, who))
       for (int v : t) share[v] += area_vector(mesh, t).norm() / 3;
     return share;
   }
@@ -55,8 +62,8 @@ std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh,
 std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh,
                                const std::vector<double>& mass, const Selecting& who) {
   if (const auto* follower = std::get_if<FollowerPressure>(&load.load))
-    return forces_of(follower->value, mesh, load.where, who);
-  if (std::holds_alternative<EnclosedVolume>(load.load)) return forces_of(0, mesh, load.where, who);
+    return forces_of(follower->value, mesh, load, who);
+  if (std::holds_alternative<EnclosedVolume>(load.load)) return forces_of(0, mesh, load, who);
   const auto* traction = std::get_if<Traction>(&load.load);
   const Point value = traction ? traction->value : std::get<TotalForce>(load.load).value;
   std::map<int, Point> force;
@@ -168,7 +175,7 @@ std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mes
     const LoadOptions& load = body.loads[i];
     if (!follows(load)) continue;
     const Selecting who{"body.loads." + std::to_string(i), level};
-    const auto triangles = select_triangles(mesh, load.where, who);
+    const auto triangles = loaded_triangles(load, mesh, who);
     std::optional<Cavity> cavity;
     if (const auto* given = std::get_if<EnclosedVolume>(&load.load))
       cavity = make_cavity(*given, static_cast<int>(i), mesh, triangles, still, who);

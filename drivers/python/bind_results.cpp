@@ -17,7 +17,7 @@ void bind_results(nb::module_& m) {
       m, "Diagnosis",
       "Why a run cannot go on. Indices count as the mesh's file does; -1: does not apply.")
       .def_ro("kind", &Diagnosis::kind,
-              "non_finite, inverted, energy, speed, contact, solver or stability")
+              "non_finite, inverted, energy, speed, contact, solver, stability or cut")
       .def_ro("level", &Diagnosis::level, "0: the finest")
       .def_ro("element", &Diagnosis::element, "tetrahedron of that level")
       .def_ro("vertex", &Diagnosis::vertex, "vertex of that level")

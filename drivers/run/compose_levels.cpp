@@ -12,6 +12,8 @@ namespace {
 
 std::string level_path(std::size_t level) { return "body.levels." + std::to_string(level); }
 
+std::string cover_key(const LevelCover& cover) { return cover.refined ? ".refine" : ".covers"; }
+
 /// Returns the mesh of a level that covers a part. `below`: mesh of the next coarser level.
 PartMesh part_of_level(const Body& body, std::size_t level, const PartMesh& below) {
   const LevelCover& cover = body.covers.at(level);
@@ -22,8 +24,12 @@ PartMesh part_of_level(const Body& body, std::size_t level, const PartMesh& belo
                                               : " has no tetrahedron"));
   if (!cover.refined) validate_mesh(own, static_cast<int>(level));
   if (!cover.where) return cover.refined ? refined(below) : PartMesh{own};
-  const Selecting who{level_path(level) + (cover.refined ? ".refine" : ".covers"),
+  const Selecting who{level_path(level) + cover_key(cover),
                       static_cast<int>(level) + (cover.refined ? 1 : 0)};
+  if (std::holds_alternative<NearestSelection>(*cover.where))
+    throw InputError(
+        who.option +
+        ".nearest: one element is no part; expected sphere, box, half_space or region");
   const PartMesh whole = cover.refined ? below : whole_mesh(own);
   TetMesh named = whole.mesh;
   add_regions(named, body.regions, who.level);
@@ -36,10 +42,11 @@ PartMesh part_of_level(const Body& body, std::size_t level, const PartMesh& belo
 std::vector<std::string> compose_levels(Body& body) {
   std::vector<std::string> doubts;
   if (body.covers.empty()) return doubts;
-  if (const std::size_t last = body.covers.rbegin()->first; last + 1 >= body.levels.size())
-    throw InputError(level_path(last) +
-                     ".covers: the last level covers a part; expected a coarser one of the whole "
-                     "body after it");
+  if (const auto& [last, cover] = *body.covers.rbegin(); last + 1 >= body.levels.size())
+    throw InputError(level_path(last) + cover_key(cover) +
+                     (cover.refined ? ": the last level has none after it to refine"
+                                    : ": the last level covers a part") +
+                     "; expected a coarser one of the whole body after it");
   std::vector<TetMesh> levels;  // coarsest first
   PartMesh below;               // next coarser mesh, as it was given
   for (std::size_t i = body.levels.size(); i-- > 0;) {

@@ -84,7 +84,8 @@ std::vector<Choice> diagnosis_kinds() {
           {"speed", "a vertex leaves the body faster than its elements can follow"},
           {"contact", "a point is deeper in an obstacle than the body is large"},
           {"solver", "the solver failed"},
-          {"stability", "the cycle lost its stability"}};
+          {"stability", "the cycle lost its stability"},
+          {"cut", "no step is stable after a cut"}};
 }
 
 std::string Diagnosis::text() const {

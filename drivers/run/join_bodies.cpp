@@ -182,6 +182,7 @@ class Joiner {
     to.followers.weight.insert(to.followers.weight.end(), mesh.followers.weight.begin(),
                                mesh.followers.weight.end());
     for (const auto& face : mesh.inner_faces) to.inner_faces.push_back(moved(face));
+    for (const auto& face : mesh.opened) to.opened.push_back(moved(face));
   }
 
   static void add_mesh(const std::string& name, const TetMesh& mesh, const Point& shift,
@@ -190,6 +191,10 @@ class Joiner {
     if (!to.filled.empty() || !mesh.filled.empty())
       append(to.filled, before, mesh.filled, count, 1.0);
     if (!to.piece.empty() || !mesh.piece.empty()) append(to.piece, before, mesh.piece, count, 0);
+    to.covered.resize(std::max(to.covered.size(), mesh.covered.size()));
+    for (std::size_t i = 0; i < mesh.covered.size(); ++i)
+      to.covered[i].dropped += mesh.covered[i].dropped,
+          to.covered[i].volume += mesh.covered[i].volume;
     for (const auto& [field, vectors] : mesh.tet_vectors) to.tet_vectors.try_emplace(field);
     for (auto& [field, all] : to.tet_vectors) {
       const auto own = mesh.tet_vectors.find(field);

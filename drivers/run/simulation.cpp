@@ -86,7 +86,8 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
       meter(*built.hierarchy, built.meshes.front(), p.gravity),
       held(built.held),
       motions(p.contact),
-      control(most_halvings(problem)) {
+      control(most_halvings(problem)),
+      fronts(p.cuts.size()) {
   check_couplings(p.contact, built.macro_step);
   problem.body.levels.clear();
   rest.resize(built.hierarchy->levels.size());
@@ -172,6 +173,8 @@ void Simulation<B>::Impl::advance(double from, double span) {
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::step_checked() {
+  if (!impl_->problem.cuts.empty())
+    if (const auto refused = cut_checked()) return refused;
   step();
   auto bad = check();
   if (bad) bad = recover(*bad);

@@ -38,7 +38,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Takes one macro step. Enqueues work and does not wait for it, except that implicit levels read
-  /// their residuals during the step.
+  /// their residuals during the step. Throws InputError, before it steps, where a blade of
+  /// Problem::cuts leaves no stable step; that cut is left out.
   void step();
 
   /// Examines the present state and returns why the run must stop; none: it may go on. Waits.
@@ -63,7 +64,8 @@ class Simulation {
   std::optional<Diagnosis> recover(const Diagnosis& bad);
 
   /// Takes one macro step of a run: step(), check() and, where that finds something, recover().
-  /// Waits. Returns none where the run can go on.
+  /// Waits. Returns none where the run can go on. Where a blade of Problem::cuts leaves no stable
+  /// step, it returns a diagnosis of the kind "cut", and the state stays as it is.
   std::optional<Diagnosis> step_checked();
 
   /// Sets the time [s] at which the run ends; infinity: no end. From now on, a macro step that
@@ -303,6 +305,8 @@ class Simulation {
 
   bool repair(const Diagnosis& bad);
   void cut_ahead();
+  /// Cuts as cut_ahead() does. Returns a diagnosis where no stable step is left after it.
+  std::optional<Diagnosis> cut_checked();
 };
 
 }  // namespace plica

@@ -101,16 +101,40 @@ void carry_stresses(const typename B::Exec& exec, const LevelData<B>& before,
   copy(exec, now.stress.memory, to_device<Scalars<B>>("carried", own));
 }
 
-/// Adds the triangles that a blade sweeps between two times [s], along a straight way.
-void sweep(const BladeOptions& blade, double from, double to, Blade& all) {
+/// Returns of each point that a surface has gained the point at the vertex that its own was before;
+/// -1: that was inside the body.
+/// @param vertex    vertex at each point
+/// @param points    number of points before
+/// @param vertices  number of vertices before
+/// @param twin      of each vertex that is new, the one that it was before, which may be new as well
+std::vector<int> former_points(const std::vector<int>& vertex, int points, int vertices,
+                               const std::vector<int>& twin) {
+  std::map<int, int> point_at;
+  for (int p = 0; p < points; ++p) point_at[vertex[index_of(p)]] = p;
+  std::vector<int> former;
+  for (std::size_t p = index_of(points); p < vertex.size(); ++p) {
+    int v = vertex[p];
+    while (v >= vertices) v = twin[index_of(v - vertices)];
+    const auto found = point_at.find(v);
+    former.push_back(found == point_at.end() ? -1 : found->second);
+  }
+  return former;
+}
+
+/// Returns the edge of a blade at a time [s].
+BladeFront::Edge edge_at(const BladeOptions& blade, double time) {
   std::vector<PathKnot> knots;
   const Path path = make_path(blade.motion, knots);
-  const auto end = [&](std::size_t i, double time) {
-    const Vec3<double> d = path_at(path, knots.data(), time).displacement;
-    return Point(blade.segment[i] + Point(d[0], d[1], d[2]));
+  const Vec3<double> d = path_at(path, knots.data(), time).displacement;
+  const Point moved(d[0], d[1], d[2]);
+  return {blade.segment[0] + moved, blade.segment[1] + moved};
+}
+
+int nearest_of(const std::vector<Point>& points, const Point& to) {
+  const auto nearer = [&](const Point& a, const Point& b) {
+    return (a - to).squaredNorm() < (b - to).squaredNorm();
   };
-  const Point a = end(0, from), b = end(1, from), c = end(1, to), d = end(0, to);
-  all.push_back({a, b, c}), all.push_back({a, c, d});
+  return static_cast<int>(std::ranges::min_element(points, nearer) - points.begin());
 }
 
 Faces merged(const Faces& a, const Faces& b) {
@@ -182,22 +206,51 @@ CutReport Simulation<B>::cut(const Blade& blade) {
           all.pieces, seconds};
 }
 
-/// Cuts what the blades of the problem sweep in the next macro step. A blade also sweeps again what
-/// it has swept in the step before, from which the body may have moved away.
+/// Cuts what the blades of the problem sweep in the next macro step, along a straight way from
+/// where the body has carried what they have cut. Throws InputError where no stable step is left.
 template <class B>
 void Simulation<B>::cut_ahead() {
   constexpr double rounding = 1e-6;  // part of the macro step
+  constexpr double spacing = 0.5;    // places on a blade's edge, over the mean edge of level 0
   Impl& s = *impl_;
-  const double now = s.time, start = now - s.built.macro_step, end = now + s.next_span();
+  const double now = s.time, end = now + s.next_span();
   if (now < s.cut_until - rounding * s.built.macro_step) return;
   s.cut_until = end;
   Blade swept;
-  for (const CutOptions& each : s.problem.cuts) {
-    if (now >= each.to || end <= each.from) continue;
-    if (now > each.from) sweep(each.blade, std::max(start, each.from), now, swept);
-    sweep(each.blade, std::max(now, each.from), std::min(end, each.to), swept);
+  for (std::size_t i = 0; i < s.problem.cuts.size(); ++i) {
+    const CutOptions& each = s.problem.cuts[i];
+    std::optional<BladeFront>& front = s.fronts[i];
+    if (now >= each.to || end <= each.from) {
+      front.reset();
+      continue;
+    }
+    const BladeFront::Edge from = edge_at(each.blade, std::max(now, each.from)),
+                           to = edge_at(each.blade, std::min(end, each.to));
+    if (!front) front.emplace(from, spacing * s.built.reports.front().mean_edge);
+    const Blade own = front->advance(mesh().tets, positions(), from, to);
+    swept.insert(swept.end(), own.begin(), own.end());
   }
   if (!swept.empty()) cut(swept);
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::cut_checked() {
+  try {
+    cut_ahead();
+    return {};
+  } catch (const InputError& error) {
+    Diagnosis refused;
+    refused.kind = "cut", refused.level = 0, refused.reason = error.what();
+    Impl& s = *impl_;
+    s.keep(s.kept);  // the state is good, only the next step is not
+    for (std::size_t i = 0; i < s.fronts.size(); ++i) {
+      if (!s.fronts[i]) continue;
+      const CutOptions& each = s.problem.cuts[i];
+      const BladeFront::Edge edge = edge_at(each.blade, std::min(s.cut_until, each.to));
+      refused.vertex = nearest_of(positions(), (edge[0] + edge[1]) / 2);
+    }
+    return refused;
+  }
 }
 
 /// Opens more faces of the body, one cut after the other.
@@ -281,7 +334,10 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   if (is.viscosity) carry_stresses<B>(exec, was, is, twin), is.viscosity->set_time(before.time);
   is.set_evaluations(was.evaluations());
   if (const Contact<B>* contact = is.contact()) {
-    contact->take_memory(exec, *was.contact());
+    const Contact<B>& touched = *was.contact();
+    contact->take_memory(
+        exec, touched,
+        former_points(problem.body.surface_vertex, touched.points(), was.model.vertices, twin));
     is.response().take_work(exec, was.response());
   }
   hierarchy().clock = before.hierarchy().clock;
@@ -296,7 +352,7 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   wrench = before.wrench, wrench_shorter = before.wrench_shorter, shorter = before.shorter;
   budget_known = before.budget_known, put_in = before.put_in, drift = before.drift;
   rejected = before.rejected, unsolved = before.unsolved, control = before.control;
-  cut_until = before.cut_until;
+  cut_until = before.cut_until, fronts = before.fronts;
   graphs = before.graphs, after_repeated = before.after_repeated;
   if (before.cores) cores.emplace(hierarchy().exec());
   before.motions.reset_history();

@@ -15,6 +15,7 @@
 #include <plica/drivers/run/reactions.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
+#include <plica/meshes/blade_front.hpp>
 
 namespace plica {
 
@@ -101,6 +102,8 @@ struct Simulation<B>::Impl {
   std::vector<int> twins;
   // time up to which blades have cut [s]: steps that are repeated do not cut again
   double cut_until = -std::numeric_limits<double>::infinity();
+  // [cuts of the problem] how far each blade has come; none: it does not cut now
+  std::vector<std::optional<BladeFront>> fronts;
   ExternalForces<B> external;  // the caller's, see set_external_forces()
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }

@@ -274,6 +274,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement,
                 to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
   };
   s.accept_state();
+  s.fronts.assign(s.fronts.size(), {});
   s.hierarchy().exec().fence("plica::set_state");
   copy(displacement, state.u, "displacements"), copy(velocity, state.v, "velocities");
   s.restart();
@@ -287,6 +288,7 @@ void Simulation<B>::set_time(double time) {
   s.accept_state();
   for (const auto& level : s.hierarchy().levels)
     if (level.viscosity) level.viscosity->set_time(time);
+  s.fronts.assign(s.fronts.size(), {});
   s.time = s.cut_until = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
   s.hierarchy().reset_history();
   s.reset_snapshots();

@@ -312,6 +312,27 @@ std::vector<Faces> name_cuts(Archive<B>& archive, std::vector<Faces> opened) {
   return opened;
 }
 
+/// Names how far each blade has come. A state in which no blade cuts has no such part.
+template <class B>
+void name_fronts(Archive<B>& archive, std::vector<std::optional<BladeFront>>& fronts, int tets) {
+  constexpr std::uint64_t mark = 0x626c616465656467;
+  std::vector<std::optional<BladeFront>> all = fronts;
+  const auto cuts = [](const auto& front) { return front.has_value(); };
+  const bool any = archive.part(mark, std::ranges::any_of(all, cuts));
+  if (any) archive.same("the number of blades", all.size());
+  for (auto& front : all) {
+    if (!any || archive.count(cuts(front) ? 1 : 0) == 0) {
+      front.reset();
+      continue;
+    }
+    if (!front) front.emplace();
+    front->name_fields(archive);
+    if (archive.restoring() && !front->fits(static_cast<std::size_t>(tets)))
+      throw InputError("the saved state is damaged: a blade is in no element of the mesh");
+  }
+  if (archive.restoring()) fronts = std::move(all);
+}
+
 /// Names to the archive all that is carried from one macro step to the next, in a fixed order.
 template <class B, class Impl>
 void name_all(Impl& s, Archive<B>& archive) {
@@ -333,6 +354,7 @@ void name_all(Impl& s, Archive<B>& archive) {
   name_snapshot<B>(s.kept, archive);
   if (s.fallback) name_snapshot<B>(*s.fallback, archive);
   s.motions.name_fields(archive);
+  name_fronts<B>(archive, s.fronts, s.built.reports.front().tets);
   archive.finish();
 }
 

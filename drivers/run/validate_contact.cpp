@@ -30,7 +30,8 @@ void check_triangles(const std::string& option, const TriangleSurface& surface) 
   check_numbers(option, surface);
 }
 
-void check_closed(const std::string& option, const TriangleSurface& surface) {
+void check_closed(const std::string& option, const TriangleSurface& surface,
+                  const std::string& expected = "; expected a closed surface") {
   check_triangles(option, surface);
   SurfaceReport edges;
   count_edges(surface, edges);
@@ -38,7 +39,7 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
     throw InputError(option + " has no inside: of its edges " + std::to_string(edges.open_edges) +
                      " are open (of one triangle), " + std::to_string(edges.crowded_edges) +
                      " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
-                     " between triangles that face different sides; expected a closed surface");
+                     " between triangles that face different sides" + expected);
   Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,",
                                           enclosed_volume(surface));
 }
@@ -96,7 +97,15 @@ void check_pairs(const Problem& problem) {
       throw InputError("bodies." + part.name +
                        ": it has no surface, which touching other bodies needs; expected bodies." +
                        part.name + ".surface, or " + instead);
-  check_closed("body.surface", *body.surface);
+  const bool part =
+      std::ranges::any_of(body.levels, [](const TetMesh& mesh) { return !mesh.piece.empty(); });
+  check_closed(
+      "body.surface", *body.surface,
+      part ? ". The boundary of a body with a part (refine, covers) is open along the part's "
+             "border; expected body.surface: {file: SURFACE}, a closed surface of the body, "
+             "or " +
+                 instead
+           : "; expected a closed surface");
   refuse_matrix(problem, key);
 }
 
@@ -146,9 +155,11 @@ void validate_contact(const Problem& problem) {
                        std::to_string(other->second) + "; expected names that differ");
   }
   for (std::size_t i = 0; i < obstacles.size(); ++i)
-    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
-      (solid->thickness > 0 ? check_triangles : check_closed)(
-          "contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
+    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape)) {
+      const std::string option = "contact.obstacles." + std::to_string(i) + ".surface";
+      solid->thickness > 0 ? check_triangles(option, solid->surface)
+                           : check_closed(option, solid->surface);
+    }
   for (const BodyPart& part : problem.body.parts)
     if (const auto other = named.find(part.name); other != named.end())
       throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" +

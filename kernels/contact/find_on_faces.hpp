@@ -69,8 +69,9 @@ struct FindOnFaces {
     records.set_stencil(r, p[0], p[1], p[2], -1, w[0], w[1], w[2], 0);
     Vec3<Real> at;
     for (int c = 0; c < 3; ++c) at += w[c] * vector_at<B>(records.places, p[c]);
-    records.use(r, records.obstacle_law(obstacle, p[0]),
-                pose.to_world(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
+    const Vec3<Real> push =
+        meets_neighbour(t, p, w, pose, gap.normal) ? gap.normal : out_of(gap.normal, inward(x));
+    records.use(r, records.obstacle_law(obstacle, p[0]), pose.to_world(push), beyond,
                 records.span * pose.velocity(at), records.span * pose.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0)
@@ -104,6 +105,11 @@ struct FindOnFaces {
     return bound;
   }
 
+  /// Returns twice the triangle's area, as a vector into the body.
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>* x) {
+    return cross(x[1] - x[0], x[0] - x[2]);
+  }
+
   /// Returns the obstacle's normal. Where a thin tool pierces the triangle, that normal is along
   /// the triangle; then it returns the triangle's own, the direction of `inward`, into the body.
   static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal,
@@ -111,6 +117,35 @@ struct FindOnFaces {
     const Real along = dot(normal, inward), square = dot(inward, inward);
     if (!(square > 0) || 4 * along * along > square) return normal;
     return (1 / Kokkos::sqrt(square)) * inward;
+  }
+
+  /// Returns true where the place is on a side of the triangle, and the obstacle's normal looks
+  /// into the body at the neighbour across that side. A tool that lies across the rim of a cut
+  /// touches its wall so: the tool pushes the rim down, and not along the wall's normal, which
+  /// would push both walls apart.
+  KOKKOS_INLINE_FUNCTION bool meets_neighbour(int t, const int* p, const Vec3<Real>& weights,
+                                              const ObstaclePose& pose,
+                                              const Vec3<Real>& normal) const {
+    constexpr Real on_side = Real(0.02);  // weight of the corner across
+    const SurfaceMesh<B>& mesh = records.mesh;
+    for (int c = 0; c < 3; ++c) {
+      if (weights[c] >= on_side) continue;
+      const int a = p[(c + 1) % 3], b = p[(c + 2) % 3];
+      for (int i = mesh.first(a); i < mesh.first(a + 1); ++i) {
+        const int other = mesh.triangle(i);
+        bool shares = false;
+        Vec3<Real> x[3];
+        for (int k = 0; k < 3; ++k) {
+          const int q = mesh.corner(3 * other + k);
+          shares = shares || q == b;
+          x[k] = pose.local(vector_at<B>(records.places, q));
+        }
+        const Vec3<Real> into = inward(x);
+        const Real along = dot(normal, into);
+        if (other != t && shares && along > 0 && 4 * along * along > dot(into, into)) return true;
+      }
+    }
+    return false;
   }
 };
 

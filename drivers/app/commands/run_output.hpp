@@ -4,6 +4,7 @@
 #include <deque>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
+#include <plica/drivers/app/output/border_contact.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/inside_out.hpp>
@@ -91,6 +92,8 @@ class RunOutput {
         inside_out_(scene.problem.body.material),
         depth_(scene.problem.contact, simulation.levels()[0].mean_edge,
                scene.problem.body.surface.value_or(TriangleSurface{}), has_pairs(scene.problem)),
+        border_(scene.problem.body.levels.front(),
+                scene.problem.body.surface.value_or(TriangleSurface{})),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
     if (resumed) restore_saved();
@@ -125,7 +128,7 @@ class RunOutput {
     const Mark& to = marks_.back();
     files_.cut_back(to.frames, to.history_bytes);
     if (probes_) probes_->file().cut_back(to.probe_bytes);
-    energy_.restore(to.energy), inside_out_.restore(to.inside_out), depth_.restore(to.depth);
+    energy_.restore(to.energy), inside_out_.restore(to.inside_out), restore_contact(to.depth);
     recorded_ = macro_steps;
     if (saved_ > macro_steps) saved_ = -1, replaces_saved_ = true;
   }
@@ -149,7 +152,7 @@ class RunOutput {
   /// Returns what frames and the rows of history.csv have shown to be wrong, one sentence each.
   std::vector<std::string> warnings() const {
     std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(),
-                                          depth_.warning()};
+                                          depth_.warning(), border_.warning()};
     std::erase(sentences, "");
     return sentences;
   }
@@ -175,7 +178,18 @@ class RunOutput {
             probes_ ? probes_->file().size() : 0,
             energy_.save(),
             inside_out_.save(),
-            depth_.save()};
+            saved_contact()};
+  }
+  /// Returns what frames have shown of contact.
+  std::vector<double> saved_contact() const {
+    std::vector<double> saved = depth_.save();
+    saved.push_back(border_.first());
+    return saved;
+  }
+  void restore_contact(std::vector<double> saved) {
+    if (saved.empty()) throw InputError("the saved state is damaged: it has no contact depths");
+    border_.restore(saved.back()), saved.pop_back();
+    depth_.restore(saved);
   }
 
   /// Restores what the checkpoint has of earlier frames. Throws InputError where values are
@@ -187,7 +201,7 @@ class RunOutput {
       energy_.restore({energy.begin(), energy.begin() + 5});
       work_.restore(energy[5], energy[6] > 0);
       inside_out_.restore(checkpoint_.inside_out);
-      depth_.restore(checkpoint_.depth);
+      restore_contact(checkpoint_.depth);
     } catch (const InputError& error) {
       throw InputError(error.what(), {(folder_ / "checkpoint.bin").string()});
     }
@@ -215,6 +229,7 @@ class RunOutput {
       const std::vector<double> depths = simulation_.contact_depths();
       depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths),
                   simulation_.pair_depth());
+      if (border_.looks()) border_.look(time, simulation_.contact_pressure());
     }
     files_.follow_cuts(simulation_);
     files_.write(now);
@@ -234,7 +249,7 @@ class RunOutput {
     checkpoint_.energy = energy_.save();
     checkpoint_.energy.insert(checkpoint_.energy.end(), {work_.done(), work_.known() ? 1.0 : 0.0});
     checkpoint_.inside_out = inside_out_.save();
-    checkpoint_.depth = depth_.save();
+    checkpoint_.depth = saved_contact();
     checkpoint_.files = files_.mark();
     if (probes_) checkpoint_.files.probe_bytes = probes_->file().size();
     checkpoint_.state = simulation_.save();
@@ -255,6 +270,7 @@ class RunOutput {
   bool watches_energy_;
   InsideOut inside_out_;
   ContactDepth depth_;
+  BorderContact border_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
   bool replaces_saved_ = false;  // true: the last checkpoint is of a step that was taken back

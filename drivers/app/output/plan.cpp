@@ -117,15 +117,17 @@ std::string spaces_text(const Plan& plan) {
 
 // Returns the table of the pieces of levels that are finer in a part of the body
 std::string pieces_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows = {
-      {"level", "piece", "tetrahedra", "followers", "cut", "least filled", "mass"}};
+  std::vector<std::vector<std::string>> rows = {{"level", "piece", "tetrahedra", "followers", "cut",
+                                                 "dropped", "least filled", "mass", "covered"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i)
     for (const PieceReport& piece : plan.levels[i].pieces)
       rows.push_back({std::to_string(i), std::to_string(&piece - plan.levels[i].pieces.data()),
                       std::to_string(piece.tets), std::to_string(piece.followers),
-                      std::to_string(piece.cut), fmt::format("{:.2g}", piece.least_filled),
-                      in_units(piece.mass, "kg")});
-  return rows.size() == 1 ? "" : "\nPieces of levels, finest first\n" + text_table(rows, ">>>>>>>");
+                      std::to_string(piece.cut), std::to_string(piece.dropped),
+                      fmt::format("{:.2g}", piece.least_filled), in_units(piece.mass, "kg"),
+                      fmt::format("{:.3g} m^3", piece.covered)});
+  return rows.size() == 1 ? ""
+                          : "\nPieces of levels, finest first\n" + text_table(rows, ">>>>>>>>>");
 }
 
 // Returns two tables: the sizes of the levels, then their work in a macro step

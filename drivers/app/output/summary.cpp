@@ -137,7 +137,9 @@ Json levels_json(const std::vector<LevelReport>& levels) {
   static const Table<PieceReport> pieces = {{"tets", &PieceReport::tets},
                                             {"followers", &PieceReport::followers},
                                             {"cut", &PieceReport::cut},
+                                            {"dropped", &PieceReport::dropped},
                                             {"mass", &PieceReport::mass},
+                                            {"covered_volume", &PieceReport::covered},
                                             {"least_filled", &PieceReport::least_filled}};
   static const Table<LevelReport> columns = {
       {"kind", [](const LevelReport& level) { return level_kind_name(level.kind); }},

@@ -269,6 +269,19 @@ double fit_step(const StepperSetup<B>& setup, std::vector<HimParts<B>>& bodies, 
 }
 
 template <class B>
+bool fit_given_step(const StepperSetup<B>& setup, std::vector<HimParts<B>>& bodies) {
+  const double t = *setup.problem.integration.macro_step,
+               sigma = setup.problem.integration.him.sigma;
+  bool all = true;
+  for (HimParts<B>& one : bodies) {
+    const auto fit = one.fitter->fit(t, sigma, setup.hierarchy[0].state.u);
+    one.fit = fit ? *fit : one.fitter->use(t, sigma, 1);
+    all = all && fit;
+  }
+  return all;
+}
+
+template <class B>
 void report_fits(StepperSetup<B>& setup, const std::vector<HimParts<B>>& bodies) {
   for (std::size_t i = 0; i < setup.reports.size(); ++i) {
     LevelReport& report = setup.reports[i];
@@ -300,6 +313,8 @@ void report_fits(StepperSetup<B>& setup, const std::vector<HimParts<B>>& bodies)
       StepperSetup<Backend<Real, Exec>>&);                                        \
   template double fit_step(const StepperSetup<Backend<Real, Exec>>&,              \
                            std::vector<HimParts<Backend<Real, Exec>>>&, double&); \
+  template bool fit_given_step(const StepperSetup<Backend<Real, Exec>>&,          \
+                               std::vector<HimParts<Backend<Real, Exec>>>&);      \
   template void report_fits(StepperSetup<Backend<Real, Exec>>&,                   \
                             const std::vector<HimParts<Backend<Real, Exec>>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)

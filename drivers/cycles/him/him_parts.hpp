@@ -19,6 +19,11 @@ std::vector<HimParts<B>> him_parts(StepperSetup<B>& setup);
 template <class B>
 double fit_step(const StepperSetup<B>& setup, std::vector<HimParts<B>>& bodies, double& usual);
 
+/// Fits all bodies to the scene's macro step. Returns false where one does not fit; then all have
+/// the largest weights, which are not stable.
+template <class B>
+bool fit_given_step(const StepperSetup<B>& setup, std::vector<HimParts<B>>& bodies);
+
 /// Completes the reports with the results of the fits.
 template <class B>
 void report_fits(StepperSetup<B>& setup, const std::vector<HimParts<B>>& bodies);

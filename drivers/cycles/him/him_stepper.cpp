@@ -31,10 +31,17 @@ void HimStepper<B>::plan(StepperSetup<B>& setup) {
   explicit_limit_ = setup.reports.front().critical_step, eigenvalue_ = setup.eigenvalue;
   std::vector<HimParts<B>> bodies = him_parts<B>(setup);
   double usual = 0;
-  macro_step_ = setup.macro_step = fit_step<B>(setup, bodies, usual);
+  bool fits = true;
+  if (setup.goes_on && may_repair_ && setup.problem.integration.macro_step) {
+    setup.macro_step = *setup.problem.integration.macro_step;
+    fits = fit_given_step<B>(setup, bodies);
+  } else {
+    setup.macro_step = fit_step<B>(setup, bodies, usual);
+  }
   report_fits<B>(setup, bodies);
   setup.him->usual_step = usual;
   take(setup.hierarchy, std::move(bodies), setup.contact != nullptr);
+  if (!fits) regaining_.cut(), shorten(setup.hierarchy);
 }
 
 template <class B>
@@ -197,7 +204,7 @@ void HimStepper<B>::use_fits() {
 }
 
 template <class B>
-bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
+bool HimStepper<B>::repair(Hierarchy<B>& h, double /*t*/) {
   ++repairs_;
   regaining_.cut();
   if (explicit_ > 0) {
@@ -206,18 +213,23 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
     explicit_ *= 2;
     return true;
   }
+  shorten(h);
+  if (explicit_ == 0) begin(h);
+  return true;
+}
+
+template <class B>
+void HimStepper<B>::shorten(const Hierarchy<B>& h) {
   const double step = explicit_step(h);
   for (int next = halvings_ + 1; next <= most_halvings(step); ++next)
     if (fit(h, next)) {
       halvings_ = next;
-      begin(h);
-      return true;
+      return;
     }
   use_fits();
   explicit_ = static_cast<int>(
-      std::clamp(std::ceil(t / step), 1.0,
-                 std::ceil(most_explicit * t / (explicit_safety * explicit_limit_))));
-  return true;
+      std::clamp(std::ceil(macro_step_ / step), 1.0,
+                 std::ceil(most_explicit * macro_step_ / (explicit_safety * explicit_limit_))));
 }
 
 template <class B>

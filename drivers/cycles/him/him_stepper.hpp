@@ -94,6 +94,9 @@ class HimStepper final : public Stepper<B> {
   /// Fits all bodies in the present state to the macro step after `halvings`.
   /// Returns false where one does not fit.
   bool fit(const Hierarchy<B>& h, int halvings);
+  /// Makes steps shorter: by more halvings, to which the inertia fits in the present state, or by
+  /// explicit sub-steps of level 0 where these are cheaper.
+  void shorten(const Hierarchy<B>& h);
   /// Returns the longest explicit step of level 0 that is safe in the present state [s].
   double explicit_step(const Hierarchy<B>& h) const;
   /// Returns the maximum halvings of the macro step at which explicit steps are not yet cheaper.

@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/border_contact.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/body/masses.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/validate.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 
 #include "support/backends.hpp"
+#include "support/refusal.hpp"
 #include "unit/app/scene_text.hpp"
 
 // Scenes with levels that cover a part of the body.
@@ -33,6 +38,11 @@ TEST(PartScenes, RefineAPartAndRun) {
   const auto fine = std::ranges::count(mesh.piece, 0);
   EXPECT_EQ(fine % 8, 0);
   EXPECT_EQ(std::ssize(mesh.tets), 6 * 12 * 3 * 3 + fine - fine / 8);
+  const std::vector<PieceReport> pieces = piece_reports(mesh, {1000});
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[0].dropped, 0);
+  EXPECT_EQ(pieces[1].dropped, fine / 8);
+  EXPECT_NEAR(1000 * pieces[1].covered, pieces[0].mass, 1e-12 * pieces[0].mass);
   validate(scene.problem);
   Simulation<plica::test::Host> simulation(scene.problem);
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(simulation.step_checked());
@@ -46,6 +56,43 @@ TEST(PartScenes, RefineAPartAndRun) {
       EXPECT_LT(places[v][2], mesh.vertices[v][2]);
     }
   }
+}
+
+TEST(PartScenes, NeedASurfaceOfTheirOwnForContactWithThemselves) {
+  const auto said = [](const std::string& levels) {
+    const Scene scene =
+        scene_of(scene_with(levels + "  surface: {boundary: true}\n") + "contact: {self: true}\n");
+    return plica::test::refusal([&] { validate(scene.problem); });
+  };
+  const std::string refused = said("    - {refine: " + ball + "}\n" + whole);
+  EXPECT_NE(refused.find("expected body.surface: {file: SURFACE}, a closed surface of the body"),
+            std::string::npos)
+      << refused;
+  EXPECT_EQ(said(whole).find("SURFACE"), std::string::npos);
+}
+
+// Touched at the border of the part, and two coarse edges from it
+TEST(PartScenes, WarnOfContactAtABorder) {
+  const Scene scene = scene_of(
+      scene_with("    - {refine: {box: {min: [0, 0, 0], max: [0.2, 0.1, 0.1]}}}\n" + whole));
+  const TetMesh& mesh = scene.problem.body.levels.front();
+  const TriangleSurface surface = boundary_surface(mesh).surface;
+  const auto warning = [&](double x) {
+    BorderContact contact(mesh, surface);
+    EXPECT_TRUE(contact.looks());
+    std::vector<double> pressure(surface.vertices.size(), 0);
+    contact.look(1, pressure);
+    EXPECT_EQ(contact.warning(), "");
+    for (std::size_t p = 0; p < pressure.size(); ++p)
+      if (std::abs(surface.vertices[p][0] - x) < 1e-9) pressure[p] = 5;
+    contact.look(2, pressure), contact.look(3, pressure);
+    return contact.warning();
+  };
+  EXPECT_EQ(warning(0.2).find("contact: at 2 s something touches the body within a coarse edge"),
+            0u);
+  EXPECT_EQ(warning(0.1), "");
+  const TetMesh one = scene_of(scene_with(whole)).problem.body.levels.front();
+  EXPECT_FALSE(BorderContact(one, boundary_surface(one).surface).looks());
 }
 
 TEST(PartScenes, AMeshOfAPartAndAPartOfAMeshAreAlike) {
@@ -96,9 +143,17 @@ TEST(PartScenes, OneOfSeveralBodiesMayHaveAPart) {
 
 TEST(PartScenes, SayWhatIsWrongAndWhere) {
   const auto error = [](const std::string& levels) { return error_of(scene_with(levels)); };
-  EXPECT_EQ(error(whole + "    - {refine: " + ball + "}\n"),
-            "a.yaml:6: body.levels.1.covers: the last level covers a part; expected a coarser one "
-            "of the whole body after it");
+  EXPECT_EQ(
+      error(whole + "    - {refine: " + ball + "}\n"),
+      "a.yaml:6: body.levels.1.refine: the last level has none after it to refine; expected a "
+      "coarser one of the whole body after it");
+  EXPECT_EQ(
+      error(whole + "    - {box: {size: [1, 1, 1], cells: [2, 2, 2]}, covers: part}\n"),
+      "a.yaml:6: body.levels.1.covers: the last level covers a part; expected a coarser one of "
+      "the whole body after it");
+  EXPECT_EQ(error("    - {refine: {nearest: [0.2, 0.05, 0]}}\n" + whole),
+            "a.yaml:5: body.levels.0.refine.nearest: one element is no part; expected sphere, box, "
+            "half_space or region");
   EXPECT_EQ(error("    - {box: {size: [1, 1, 1], cells: [2, 2, 2]}, covers: all}\n" + whole),
             "a.yaml:5: body.levels.0.covers: expected part, or a map such as {sphere: {centre: "
             "[0, 0, 0], radius: 1 cm}}, got 'all'");
