@@ -15,6 +15,7 @@
 #include <plica/drivers/run/reactions.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
+#include <plica/meshes/partly_refined.hpp>
 
 namespace plica {
 
@@ -99,8 +100,14 @@ struct Simulation<B>::Impl {
   std::vector<Faces> opened;
   CutReport cut_so_far;
   std::vector<int> twins;
-  // time up to which blades have cut [s]: steps that are repeated do not cut again
-  double cut_until = -std::numeric_limits<double>::infinity();
+  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to, and per vertex
+  // of this mesh what it is in the mesh that the part is made of
+  FollowReport followed;
+  std::vector<Ends> ends;
+  long mesh_changes = 0;  // number of times that level 0 was built again
+  // time up to which blades have cut and the part has followed [s]: steps that are repeated do not
+  // do so again
+  double ahead_until = -std::numeric_limits<double>::infinity();
   ExternalForces<B> external;  // the caller's, see set_external_forces()
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
@@ -151,12 +158,22 @@ struct Simulation<B>::Impl {
   void restart();
   void open_budget();
 
+  // Level 0 that is built again
+  Problem present_problem() const;
+  void go_on_from(Impl& before);
+
   // Cuts
   OpenedBody with_open(const std::vector<Faces>& more) const;
   std::unique_ptr<Impl> rebuilt(OpenedBody&& body);
   std::unique_ptr<Impl> reopened(const std::vector<Faces>& saved);
-  void go_on_from(Impl& before);
+  void carry_over_cuts(Impl& before);
   Faces open_so_far() const;
+
+  // A part that follows an obstacle
+  long steps_between_looks() const;
+  std::unique_ptr<Impl> with_part(std::vector<int> refined);
+  std::unique_ptr<Impl> with_saved_part(const std::optional<std::vector<int>>& saved);
+  void carry_over_part(Impl& before);
 
   // Recovery
   std::optional<Diagnosis> cover(bool checks);

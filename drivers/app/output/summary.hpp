@@ -44,6 +44,8 @@ struct Summary {
   std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
   Penetrations penetrations;          ///< largest depths in all frames
   std::optional<CutReport> cuts;      ///< outcome of the scene's cuts; none: it has none
+  /// moves of a part that follows an obstacle; none: the scene has no such part
+  std::optional<FollowReport> followed;
   std::vector<std::string> warnings;  ///< warnings about the scene and about the run
   /// last good positions of the corners of the diagnosis' element, or of its vertex [m]
   std::vector<Point> diagnosed;
