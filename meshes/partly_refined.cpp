@@ -78,8 +78,7 @@ std::vector<Point> carried_values(const std::vector<Ends>& from, const std::vect
 }
 
 std::vector<int> tets_within(const std::vector<std::array<int, 4>>& tets,
-                             const std::vector<Point>& places, const Point& centre,
-                             double radius) {
+                             const std::vector<Point>& places, const Point& centre, double radius) {
   std::vector<int> within;
   for (std::size_t t = 0; t < tets.size(); ++t) {
     Point sum = Point::Zero();

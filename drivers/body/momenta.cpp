@@ -29,8 +29,8 @@ void restore_momenta(const Momenta& given, const std::vector<double>& mass,
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const int a : chosen) {
     const Point r = x[index_of(a)] - centre;
-    inertia += mass[index_of(a)] *
-               (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+    inertia +=
+        mass[index_of(a)] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia);
   for (int pass = 0; pass < passes; ++pass) {

@@ -7,6 +7,7 @@
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/validate.hpp>
+#include <plica/kernels/contact/gap.hpp>
 #include <plica/meshes/composite.hpp>
 #include <plica/meshes/partly_refined.hpp>
 
@@ -45,8 +46,9 @@ void choose_regions(Body& body) {
 void expect_to_follow(const Body& body, std::size_t level) {
   const std::string path = level_path(level) + ".refine.follows";
   if (level != 0 || body.covers.size() > 1)
-    throw InputError(path + ": a part that follows an obstacle is the only one; expected one level "
-                            "with refine, the first, and none with covers");
+    throw InputError(path +
+                     ": a part that follows an obstacle is the only one; expected one level "
+                     "with refine, the first, and none with covers");
   if (const TetMesh& own = body.levels.front(); !own.tets.empty())
     throw InputError(level_path(level) + " has a mesh and is to be refined; expected one");
   validate_mesh(body.levels[1], 1);
@@ -54,8 +56,7 @@ void expect_to_follow(const Body& body, std::size_t level) {
     throw InputError(path + ": level 1 is a lattice, or has pieces; expected one mesh that fits");
   if (!body.covers.at(level).refined || body.covers.at(level).where)
     throw InputError(path + ": expected a part that is refined, without another choice");
-  if (!body.parts.empty())
-    throw InputError(path + ": expected one body, got several");
+  if (!body.parts.empty()) throw InputError(path + ": expected one body, got several");
 }
 
 /// Makes level 0 of level 1 and a part of it round an obstacle.

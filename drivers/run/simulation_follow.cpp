@@ -21,6 +21,7 @@
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
+#include <plica/kernels/contact/gap.hpp>
 #include <utility>
 
 namespace plica {
@@ -156,8 +157,8 @@ auto Simulation<B>::Impl::with_saved_part(const std::optional<std::vector<int>>&
   const auto& part = problem.body.following;
   if (saved.has_value() != part.has_value())
     throw InputError(text("the saved state has ", saved ? "a" : "no",
-                          " part that follows an obstacle, this simulation has ", part ? "one" : "none",
-                          "; expected a simulation of the same problem"));
+                          " part that follows an obstacle, this simulation has ",
+                          part ? "one" : "none", "; expected a simulation of the same problem"));
   if (!saved || *saved == part->refined) return nullptr;
   const auto tets = static_cast<int>(part->coarser.tets.size());
   for (std::size_t i = 0; i < saved->size(); ++i)

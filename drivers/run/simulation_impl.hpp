@@ -100,8 +100,8 @@ struct Simulation<B>::Impl {
   std::vector<Faces> opened;
   CutReport cut_so_far;
   std::vector<int> twins;
-  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to, and per vertex
-  // of this mesh what it is in the mesh that the part is made of
+  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to, and per
+  // vertex of this mesh what it is in the mesh that the part is made of
   FollowReport followed;
   std::vector<Ends> ends;
   long mesh_changes = 0;  // number of times that level 0 was built again

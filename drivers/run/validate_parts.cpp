@@ -51,8 +51,9 @@ bool runs_between_sets(const std::optional<FibreOptions>& fibres) { return fibre
 std::string refused_by_following(const Problem& problem) {
   const Body& body = problem.body;
   if (const std::string& cycle = problem.integration.cycle; cycle != "single" && cycle != "him")
-    return "integration.cycle is " + cycle + ", which cannot go on with another part; expected "
-                                             "single or him";
+    return "integration.cycle is " + cycle +
+           ", which cannot go on with another part; expected "
+           "single or him";
   if (!problem.cuts.empty())
     return "cuts: a body with a part that moves cannot be cut; expected a part that stays, and "
            "cuts, in runs of their own";

@@ -360,10 +360,9 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                                                : fmt::format("{} vertices", s.cuts->new_vertices),
                      counted(s.cuts->pieces, "piece"))});
   if (s.followed)
-    rows.insert(rows.begin() + 1,
-                {"part", fmt::format("made anew {} as it followed, in {}",
-                                     counted(s.followed->moves, "time"),
-                                     in_units(s.followed->seconds, "s"))});
+    rows.insert(rows.begin() + 1, {"part", fmt::format("made anew {} as it followed, in {}",
+                                                       counted(s.followed->moves, "time"),
+                                                       in_units(s.followed->seconds, "s"))});
   if (s.choice) rows.insert(rows.begin() + 1, {"cycle auto", choice_line(*s.choice)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }

@@ -38,12 +38,12 @@ struct Summary {
   std::map<std::string, long> counters;
   double residual = 0;  ///< largest residual of an implicit solve in the run
   std::optional<Diagnosis> diagnosis;
-  std::vector<Wrench> wrenches;       ///< forces and torques over the last macro step
-  std::vector<Reaction> reactions;    ///< forces and torques that hold vertices at the end
-  std::vector<ToolState> tools;       ///< poses of obstacles with mass at the end
-  std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
-  Penetrations penetrations;          ///< largest depths in all frames
-  std::optional<CutReport> cuts;      ///< outcome of the scene's cuts; none: it has none
+  std::vector<Wrench> wrenches;     ///< forces and torques over the last macro step
+  std::vector<Reaction> reactions;  ///< forces and torques that hold vertices at the end
+  std::vector<ToolState> tools;     ///< poses of obstacles with mass at the end
+  std::vector<HeldBy> held;         ///< points that obstacles have grasped at the end
+  Penetrations penetrations;        ///< largest depths in all frames
+  std::optional<CutReport> cuts;    ///< outcome of the scene's cuts; none: it has none
   /// moves of a part that follows an obstacle; none: the scene has no such part
   std::optional<FollowReport> followed;
   std::vector<std::string> warnings;  ///< warnings about the scene and about the run

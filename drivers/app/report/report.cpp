@@ -162,8 +162,8 @@ class Maker {
       data_["films"].push_back(films[i]->json());
   }
 
-  // Leaves out the film of level 0 where a part of it follows an obstacle: each frame may have other
-  // elements
+  // Leaves out the film of level 0 where a part of it follows an obstacle: each frame may have
+  // other elements
   void leave_out_moving_parts(std::vector<Listed>& listed) {
     if (!data_.contains("summary") || !data_["summary"].contains("followed")) return;
     const auto of_level_0 = [](const Listed& film) { return film.level == 0; };

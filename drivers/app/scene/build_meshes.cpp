@@ -456,8 +456,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
     const SourceLocation where = place_of(tree, "body.surface");
     body.surface =
         scene.surface->file.empty()
-            ? placed(where,
-                     [&] { return surface_of(*scene.surface, body, scene.numbering[0]); })
+            ? placed(where, [&] { return surface_of(*scene.surface, body, scene.numbering[0]); })
             : from_file(*scene.surface, scene, where);
   }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
