@@ -215,8 +215,8 @@ struct LevelCover {
   bool refined = false;
   /// Set of vertices or triangles of its mesh that is its border inside the body; empty: found
   std::string border = {};
-  /// Where `refined` is true, in place of `where`: elements round an obstacle, chosen anew as it
-  /// moves. None: the part stays where it is
+  /// Elements round an obstacle, chosen anew as it moves: in place of `where`, with `refined`. None:
+  /// the part stays where it is
   std::optional<FollowOptions> follows = {};
 };
 
@@ -224,7 +224,7 @@ struct LevelCover {
 struct FollowingPart {
   FollowOptions follows;     ///< obstacle and radius
   TetMesh coarser;           ///< mesh of the whole body that the part is made of
-  std::vector<int> refined;  ///< its tetrahedra that are cut in eight at present, ascending
+  std::vector<int> refined;  ///< tetrahedra of it that are cut in eight at present, ascending
 };
 
 /// A deformable body.

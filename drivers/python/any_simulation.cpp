@@ -322,7 +322,7 @@ class SimulationOf final : public AnySimulation {
   Simulation<B> simulation_;
   app::Numbering level0_;  // numbering of level 0, with the vertices that cuts have added
   std::size_t surface_points_;
-  long mesh_changes_ = 0;  // of the simulation, when its sizes were last taken over
+  long mesh_changes_ = 0;  // number of changes of the mesh that were taken over
   ExternalForces<B> forces_;
   bool fresh_ = true, stepping_ = false;  // nothing has changed since the set-up; within step()
   std::optional<SavedState> start_;

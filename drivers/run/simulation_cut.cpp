@@ -315,7 +315,7 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   wrench = before.wrench, wrench_shorter = before.wrench_shorter, shorter = before.shorter;
   budget_known = before.budget_known, put_in = before.put_in, drift = before.drift;
   rejected = before.rejected, unsolved = before.unsolved, control = before.control;
-  ahead_until = before.ahead_until, followed = before.followed;
+  ahead_until = before.ahead_until, part_moves = before.part_moves;
   mesh_changes = before.mesh_changes + 1;
   graphs = before.graphs, after_repeated = before.after_repeated;
   if (before.cores) cores.emplace(hierarchy().exec());

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <plica/core/row_ranges.hpp>
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/body/momenta.hpp>
@@ -77,7 +78,7 @@ void stop_fixed_vertices(const LevelData<B>& level, std::vector<Point>& v) {
 
 template <class B>
 FollowReport Simulation<B>::followed() const {
-  return impl_->followed;
+  return impl_->part_moves;
 }
 
 /// Returns where the point is now that the part is round [m].
@@ -106,9 +107,9 @@ template <class B>
 long Simulation<B>::Impl::steps_between_looks() const {
   const LevelReport& finest = built.reports.front();
   const double margin = (1 - always_refined) * problem.body.following->follows.radius;
-  const double steps =
-      margin / finest.mean_edge * finest.critical_step / built.macro_step;  // 0: implicit
-  return std::max(1L, static_cast<long>(std::min(steps, 1e3)));
+  const double passing =  // number of macro steps; 0: implicit ones are long
+      margin / finest.mean_edge * finest.critical_step / built.macro_step;
+  return std::max(1L, static_cast<long>(std::min(passing, 1e3)));
 }
 
 template <class B>
@@ -131,7 +132,7 @@ void Simulation<B>::follow_ahead() {
   std::unique_ptr<Impl> next = s.with_part(within(part.follows.radius));
   next->go_on_from(s);
   impl_ = std::move(next);
-  ++impl_->followed.moves, impl_->followed.seconds += timer.seconds();
+  ++impl_->part_moves.moves, impl_->part_moves.seconds += timer.seconds();
 }
 
 /// Returns a simulation with other elements refined, at its start.

@@ -102,7 +102,7 @@ struct Simulation<B>::Impl {
   std::vector<int> twins;
   // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to, and per
   // vertex of this mesh what it is in the mesh that the part is made of
-  FollowReport followed;
+  FollowReport part_moves;
   std::vector<Ends> ends;
   long mesh_changes = 0;  // number of times that level 0 was built again
   // time up to which blades have cut and the part has followed [s]: steps that are repeated do not

@@ -330,7 +330,7 @@ std::optional<std::vector<int>> name_part(Archive<B>& archive,
 template <class B, class Impl>
 void name_all(Impl& s, Archive<B>& archive) {
   name_cuts<B>(archive, s.opened);
-  name_part<B>(archive, s.problem.body.following, s.followed.moves);
+  name_part<B>(archive, s.problem.body.following, s.part_moves.moves);
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.levels.size());

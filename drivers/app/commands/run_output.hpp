@@ -63,7 +63,7 @@ class Probes {
  private:
   std::vector<Point> asked_;
   MaterialPoints<B> points_;
-  long changes_ = 0;  // of the mesh that points_ was made of
+  long changes_ = 0;  // number of changes of the mesh before points_ was made
   Point placement_;
   GrowingFile file_;
 };

@@ -180,7 +180,7 @@ class RunFiles {
   std::vector<int> skin_body_;    // body of each triangle; empty: one body
   std::vector<int> volume_levels_;
   std::vector<Volume> volumes_;
-  long mesh_changes_ = 0;  // of the simulation, when its mesh was last taken over
+  long mesh_changes_ = 0;  // number of changes of the mesh that were taken over
   std::vector<double> frame_times_;
   Frames surface_frames_;
   std::vector<Frames> volume_frames_;
