@@ -215,8 +215,8 @@ struct LevelCover {
   bool refined = false;
   /// Set of vertices or triangles of its mesh that is its border inside the body; empty: found
   std::string border = {};
-  /// Elements round an obstacle, chosen anew as it moves: in place of `where`, with `refined`. None:
-  /// the part stays where it is
+  /// Elements round an obstacle, chosen anew as it moves: in place of `where`, with `refined`.
+  /// None: the part stays where it is
   std::optional<FollowOptions> follows = {};
 };
 

@@ -193,8 +193,8 @@ void Simulation<B>::cut_ahead() {
   constexpr double rounding = 1e-6;  // part of the macro step
   Impl& s = *impl_;
   const double now = s.time, start = now - s.built.macro_step, end = now + s.next_span();
-  if (now < s.ahead_until - rounding * s.built.macro_step) return;
-  s.ahead_until = end;
+  if (now < s.cut_until - rounding * s.built.macro_step) return;
+  s.cut_until = end;
   Blade swept;
   for (const CutOptions& each : s.problem.cuts) {
     if (now >= each.to || end <= each.from) continue;
@@ -315,7 +315,8 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   wrench = before.wrench, wrench_shorter = before.wrench_shorter, shorter = before.shorter;
   budget_known = before.budget_known, put_in = before.put_in, drift = before.drift;
   rejected = before.rejected, unsolved = before.unsolved, control = before.control;
-  ahead_until = before.ahead_until, part_moves = before.part_moves;
+  cut_until = before.cut_until;
+  part_moves = before.part_moves, looked_at = before.looked_at;
   mesh_changes = before.mesh_changes + 1;
   graphs = before.graphs, after_repeated = before.after_repeated;
   if (before.cores) cores.emplace(hierarchy().exec());

@@ -114,12 +114,9 @@ long Simulation<B>::Impl::steps_between_looks() const {
 
 template <class B>
 void Simulation<B>::follow_ahead() {
-  constexpr double rounding = 1e-6;  // part of the macro step
   Impl& s = *impl_;
-  if (s.steps % s.steps_between_looks() != 0 ||
-      s.time < s.ahead_until - rounding * s.built.macro_step)
-    return;
-  s.ahead_until = s.time + s.next_span();
+  if (s.steps <= s.looked_at || s.steps % s.steps_between_looks() != 0) return;
+  s.looked_at = s.steps;
   const FollowingPart& part = *s.problem.body.following;
   const std::vector<Point> x =
       values_at_vertices(s.ends, positions(), part.coarser.vertices.size());

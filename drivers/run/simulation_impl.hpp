@@ -100,14 +100,15 @@ struct Simulation<B>::Impl {
   std::vector<Faces> opened;
   CutReport cut_so_far;
   std::vector<int> twins;
-  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to, and per
-  // vertex of this mesh what it is in the mesh that the part is made of
+  // time up to which blades have cut [s]: steps that are repeated do not cut again
+  double cut_until = -std::numeric_limits<double>::infinity();
+  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to; per vertex of
+  // this mesh what it is in the mesh that the part is made of; number of macro steps when the
+  // obstacle was last looked at, which repeated steps do not do again
   FollowReport part_moves;
   std::vector<Ends> ends;
-  long mesh_changes = 0;  // number of times that level 0 was built again
-  // time up to which blades have cut and the part has followed [s]: steps that are repeated do not
-  // do so again
-  double ahead_until = -std::numeric_limits<double>::infinity();
+  long looked_at = -1;
+  long mesh_changes = 0;       // number of times that level 0 was built again
   ExternalForces<B> external;  // the caller's, see set_external_forces()
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }

@@ -287,8 +287,7 @@ void Simulation<B>::set_time(double time) {
   s.accept_state();
   for (const auto& level : s.hierarchy().levels)
     if (level.viscosity) level.viscosity->set_time(time);
-  s.time = s.ahead_until = time,
-  s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
+  s.time = s.cut_until = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
   s.hierarchy().reset_history();
   s.reset_snapshots();
 }

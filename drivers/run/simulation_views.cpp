@@ -381,7 +381,7 @@ void Simulation<B>::restore(const SavedState& saved) {
     impl_ = std::move(next);
   }
   name_all<B>(*impl_, all);
-  impl_->ahead_until = impl_->time;
+  impl_->cut_until = impl_->time, impl_->looked_at = -1;
   if (const Contact<B>* contact = impl_->hierarchy()[0].contact())
     impl_->motions.restore_snapshot(*contact, impl_->time);
   if (impl_->motions.commanded()) impl_->budget_known = false;
