@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <plica/drivers/study/sample_bodies.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/partly_refined.hpp>
 #include <plica/meshes/refinement.hpp>
 

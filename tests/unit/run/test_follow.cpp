@@ -14,6 +14,7 @@
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/refinement.hpp>
