@@ -54,6 +54,16 @@ void describe(V& v, Selection& o) {
                 "the one nearest to this point, on every level");
 }
 
+template <class V>
+void describe(V& v, FollowOptions& o) {
+  v.required("obstacle", o.obstacle, Text{}, "its name in contact.obstacles");
+  v.required("radius", o.radius, Quantity{length, positive},
+             "elements whose centroid is nearer to it than this, wherever both are, are cut");
+  v("at", o.at, Vector{length},
+    "point of the obstacle that the radius is round, where it is at the start; left out: the "
+    "middle of its shape");
+}
+
 /// Describes the constants that the body and its regions have in common. Those of a region are
 /// optional.
 template <class V, class Options>

@@ -196,6 +196,16 @@ struct BodyPart {
   std::optional<std::vector<int>> coarsen = {};
 };
 
+/// Choice of elements round an obstacle, wherever it moves.
+struct FollowOptions {
+  std::string obstacle;  ///< name of the obstacle, see obstacle_name()
+  /// Distance up to which elements are chosen, by their centroids where these are now [m]
+  double radius = 0;
+  /// Point of the obstacle that the distance is from, where it is at t = 0 by the shape's options
+  /// [m]; none: the origin of its shape
+  std::optional<Point> at = {};
+};
+
 /// A part of the body that a level covers; elsewhere the next coarser level counts.
 struct LevelCover {
   /// Elements that are taken, by their centroids: of its mesh, which then is one of the whole body,
@@ -205,6 +215,16 @@ struct LevelCover {
   bool refined = false;
   /// Set of vertices or triangles of its mesh that is its border inside the body; empty: found
   std::string border = {};
+  /// Elements round an obstacle, chosen anew as it moves: in place of `where`, with `refined`.
+  /// None: the part stays where it is
+  std::optional<FollowOptions> follows = {};
+};
+
+/// Part of level 0 that follows an obstacle, in a body that is ready to be stepped.
+struct FollowingPart {
+  FollowOptions follows;     ///< obstacle and radius
+  TetMesh coarser;           ///< mesh of the whole body that the part is made of
+  std::vector<int> refined;  ///< tetrahedra of it that are cut in eight at present, ascending
 };
 
 /// A deformable body.
@@ -224,6 +244,9 @@ struct Body {
   /// level that covers the whole make one level, see compose_levels(): numbers of levels in other
   /// options are those after that
   std::map<std::size_t, LevelCover> covers = {};
+  /// Part of level 0 that follows an obstacle. Made of `covers` by compose_levels(); none: no part
+  /// of it does
+  std::optional<FollowingPart> following = {};
   /// Numbers of points of coarse spaces that are made of the last mesh, finest first. They are for
   /// methods that need coarse levels but no coarse elements (him, multigrid). Empty: as many as it
   /// takes. None: as many as it takes, where a method needs them

@@ -169,6 +169,12 @@ struct CutReport {
   double seconds = 0;    ///< wall time of the cut [s]
 };
 
+/// Outcome of a part of the body that follows an obstacle, so far.
+struct FollowReport {
+  long moves = 0;      ///< number of times that the part was made anew
+  double seconds = 0;  ///< wall time of that [s]
+};
+
 /// Snapshot of what a simulation carries from one macro step to the next. Only Simulation reads its
 /// bytes.
 struct SavedState {

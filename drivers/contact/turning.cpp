@@ -36,11 +36,25 @@ bool moves(const ObstacleOptions& o) {
   return o.mass || moves(o.motion) || (o.turn && moves(angle_of(*o.turn)));
 }
 
-Point turned_about(const ObstacleOptions& obstacle) {
-  if (obstacle.turn && obstacle.turn->about) return *obstacle.turn->about;
+Point origin_of(const ObstacleOptions& o) {
   Point origin = Point::Zero();
-  visit_shape(obstacle.shape, [&](auto shape, const auto& o) { origin = shape.origin(o); });
+  visit_shape(o.shape, [&](auto shape, const auto& its) { origin = shape.origin(its); });
   return origin;
+}
+
+Point turned_about(const ObstacleOptions& obstacle) {
+  return obstacle.turn && obstacle.turn->about ? *obstacle.turn->about : origin_of(obstacle);
+}
+
+ObstaclePose pose_at_start(const ObstacleOptions& options) {
+  std::vector<PathKnot> knots;
+  const Path path = make_path(options.motion, knots);
+  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement,
+                    .speed = {},
+                    .time = 0,
+                    .turn = {}};
+  if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
+  return pose;
 }
 
 Eigen::Matrix3d inertia_matrix(const ObstacleOptions& obstacle) {

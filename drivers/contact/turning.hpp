@@ -18,6 +18,11 @@ bool moves(const ObstacleOptions& obstacle);
 /// Returns the point that an obstacle turns about at t = 0 [m].
 Point turned_about(const ObstacleOptions& obstacle);
 
+/// Returns the origin of an obstacle's shape, before its motion [m].
+Point origin_of(const ObstacleOptions& obstacle);
+/// Returns the pose of an obstacle at t = 0.
+ObstaclePose pose_at_start(const ObstacleOptions& obstacle);
+
 /// Returns the inertia of an obstacle about its centre of mass at t = 0 [kg m^2].
 Eigen::Matrix3d inertia_matrix(const ObstacleOptions& obstacle);
 /// Returns the principal moments of inertia, ascending [kg m^2].

@@ -52,17 +52,17 @@ class SimulationOf final : public AnySimulation {
       for (; at_most > 0 && !bad && simulation_.time() < until - rounding; --at_most) {
         const auto start = std::chrono::steady_clock::now();
         bad = step();
-        follow_cuts();
+        follow_mesh();
         wall_time_ +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         between();
       }
     } catch (...) {
-      follow_cuts(), refresh();
+      follow_mesh(), refresh();
       throw;
     }
     if (bad) simulation_.return_to_last_good();
-    follow_cuts(), refresh();
+    follow_mesh(), refresh();
     return bad;
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
@@ -97,7 +97,7 @@ class SimulationOf final : public AnySimulation {
   }
   CutReport cut(const Blade& blade) override {
     const CutReport report = changing().cut(blade);
-    follow_cuts();
+    follow_mesh();
     return report;
   }
   void set_gravity(const Point& gravity) override {
@@ -157,7 +157,7 @@ class SimulationOf final : public AnySimulation {
   SavedState save() const override { return simulation_.save(); }
   void restore(const SavedState& saved) override {
     changing().restore(saved);
-    follow_cuts(), refresh();
+    follow_mesh(), refresh();
   }
   void reset() override {
     if (!start_) start_ = fresh_ ? save() : SimulationOf(scene_, choice_).save();
@@ -170,7 +170,7 @@ class SimulationOf final : public AnySimulation {
     folder_ = folder;
   }
   void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) override {
-    files_->follow_cuts(simulation_);
+    files_->follow_mesh(simulation_);
     if (files_->frames() == 0 || files_->last_time() < simulation_.time())
       files_->write(
           app::take_snapshot(simulation_, simulation_.time(), files_->volumes(), files_->output()));
@@ -187,6 +187,7 @@ class SimulationOf final : public AnySimulation {
     summary.held = held();
     summary.residual = simulation_.worst_residual();
     if (!simulation_.twins().empty()) summary.cuts = simulation_.cuts();
+    if (scene_->problem.body.following) summary.followed = simulation_.followed();
     app::write_file(folder_ / "summary.json",
                     app::summary_json(*scene_, summary, {"import plica"}));
   }
@@ -239,11 +240,12 @@ class SimulationOf final : public AnySimulation {
     return level == 0 ? level0_ : scene_->numbering[static_cast<std::size_t>(level)];
   }
 
-  /// Takes over the sizes of a body that was cut: its new vertices and points are the last ones.
-  void follow_cuts() {
-    const std::size_t cut = simulation_.twins().size(), count = simulation_.mesh().vertices.size();
-    if (cut == cut_) return;
-    cut_ = cut;
+  /// Takes over the sizes of a body that was cut, whose new vertices and points are the last ones,
+  /// or whose part has moved.
+  void follow_mesh() {
+    if (simulation_.mesh_changes() == mesh_changes_) return;
+    mesh_changes_ = simulation_.mesh_changes();
+    const std::size_t count = simulation_.mesh().vertices.size();
     std::vector<int>& input = level0_.input.vertices;
     for (std::size_t v = input.size(); !input.empty() && v < count; ++v)
       input.push_back(static_cast<int>(v));
@@ -319,7 +321,8 @@ class SimulationOf final : public AnySimulation {
   std::optional<CycleChoice> choice_;
   Simulation<B> simulation_;
   app::Numbering level0_;  // numbering of level 0, with the vertices that cuts have added
-  std::size_t surface_points_, cut_ = 0;  // cut_: number of these
+  std::size_t surface_points_;
+  long mesh_changes_ = 0;  // number of changes of the mesh that were taken over
   ExternalForces<B> forces_;
   bool fresh_ = true, stepping_ = false;  // nothing has changed since the set-up; within step()
   std::optional<SavedState> start_;

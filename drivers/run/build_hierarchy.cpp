@@ -369,7 +369,7 @@ class HierarchyBuilder {
         .body = parts_of_points(p.body.parts),
         .attached = attached_points(p.contact.attachments, surface_, p.body.parts),
         .held = holdable(),
-        .edge = built_.reports.front().mean_edge,
+        .edge = contact_edge(),
         .size = body_size()};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
       touching.parts.push_back({&p.body.parts[b].material, locator(0).mean_edge(b)});
@@ -388,6 +388,13 @@ class HierarchyBuilder {
                                : std::vector<int>{});
     }
     return points;
+  }
+
+  /// Returns the edge that contact is as stiff as [m]: where a part follows an obstacle that of the
+  /// part, wherever it is.
+  double contact_edge() const {
+    const auto& part = problem_.body.following;
+    return part ? mean_edge_length(part->coarser) / 2 : built_.reports.front().mean_edge;
   }
 
   double body_size() const {

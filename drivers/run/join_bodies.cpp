@@ -298,6 +298,13 @@ class Joiner {
 }  // namespace
 
 Body join_bodies(const std::vector<NamedBody>& bodies) {
+  for (const auto& [name, body] : bodies)
+    if (body.following || std::ranges::any_of(body.covers, [](const auto& cover) {
+          return cover.second.follows.has_value();
+        }))
+      throw InputError("bodies." + name +
+                       ".levels.0.refine.follows: of several bodies none has a part that follows "
+                       "an obstacle; expected a choice that stays, such as sphere");
   if (std::ranges::any_of(bodies,
                           [](const NamedBody& one) { return !one.second.covers.empty(); })) {
     std::vector<NamedBody> composed = bodies;

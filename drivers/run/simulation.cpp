@@ -56,7 +56,7 @@ constexpr double least_edge = 1e-3;
 Problem steppable(const Problem& p, Validation validation) {
   if (!p.body.covers.empty()) {
     Problem composed = p;
-    compose_levels(composed.body);
+    compose_levels(composed.body, composed.contact);
     return steppable(composed, validation);
   }
   if (validation == Validation::needed) validate(p);
@@ -104,6 +104,8 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
   if (control.halves() && wrench.extent(0) > 0)
     wrench_sum = zeros<Doubles<B>>("plica::contact.wrench_sum", wrench.extent(0));
   linear = !find_material(p.body.material.model)->rotation_invariant;
+  if (const auto& part = problem.body.following)
+    ends = ends_of_vertices(part->coarser, part->refined);
   reset_snapshots();
   open_budget();
 }
@@ -114,6 +116,7 @@ template <class B>
 void Simulation<B>::step() {
   if (impl_->step_start) impl_->keep(*impl_->step_start);
   if (!impl_->problem.cuts.empty()) cut_ahead();
+  if (impl_->problem.body.following) follow_ahead();
   Impl& s = *impl_;
   s.residual = 0;
   const Kokkos::Timer timer;

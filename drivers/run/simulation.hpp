@@ -38,8 +38,16 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Takes one macro step. Enqueues work and does not wait for it, except that implicit levels read
-  /// their residuals during the step. Throws InputError, before it steps, where a blade of
-  /// Problem::cuts leaves no stable step; that cut is left out.
+  /// their residuals during the step.
+  ///
+  /// Before it, blades of Problem::cuts cut, and a part that follows an obstacle is made anew where
+  /// the obstacle has come near its border: an element within three quarters of the radius is not
+  /// cut in eight yet. Level 0 is then built again, as by cut(). The displacements stay as they are
+  /// where elements become finer, and lose what is finer than the others elsewhere. Momentum stays
+  /// to rounding, linear and angular.
+  ///
+  /// Throws InputError, before it steps, where a blade of Problem::cuts leaves no stable step; that
+  /// cut is left out.
   void step();
 
   /// Examines the present state and returns why the run must stop; none: it may go on. Waits.
@@ -235,8 +243,14 @@ class Simulation {
   /// where no stable step is left.
   CutReport cut(const Blade& blade);
   CutReport cuts() const;  ///< all cuts so far, also those of Problem::cuts
-  /// Returns level 0's mesh at rest, where it is placed. A cut replaces it.
+  /// Returns level 0's mesh at rest, where it is placed. A cut replaces it, and so does a part that
+  /// follows an obstacle.
   const TetMesh& mesh() const;
+  /// Returns how often mesh() was replaced. Views, positions and velocities then have other sizes.
+  long mesh_changes() const;
+  /// Returns what became of the part that follows an obstacle (Body::following); zeros: there is
+  /// none, or it has not moved.
+  FollowReport followed() const;
   /// Returns of each vertex that cuts have added to level 0 the vertex that it was before.
   const std::vector<int>& twins() const;
   /// Returns the embedded surface at rest; none: there is none. A cut adds both of its sides.
@@ -307,6 +321,8 @@ class Simulation {
   void cut_ahead();
   /// Cuts as cut_ahead() does. Returns a diagnosis where no stable step is left after it.
   std::optional<Diagnosis> cut_checked();
+  void follow_ahead();
+  Point followed_place() const;
 };
 
 }  // namespace plica

@@ -158,6 +158,10 @@ CutReport Simulation<B>::cuts() const {
   return impl_->cut_so_far;
 }
 template <class B>
+long Simulation<B>::mesh_changes() const {
+  return impl_->mesh_changes;
+}
+template <class B>
 const std::optional<TriangleSurface>& Simulation<B>::surface() const {
   return impl_->problem.body.surface;
 }
@@ -253,16 +257,23 @@ std::optional<Diagnosis> Simulation<B>::cut_checked() {
   }
 }
 
+/// Returns the problem of the body as it is now, without what the start alone needs, and selections
+/// that have named their elements already.
+template <class B>
+Problem Simulation<B>::Impl::present_problem() const {
+  Problem now = problem;
+  now.body.initial = InitialOptions();
+  for (auto& [name, region] : now.body.regions) region.where.reset();
+  now.integration.macro_step = built.macro_step;
+  now.body.levels = built.meshes;
+  return now;
+}
+
 /// Opens more faces of the body, one cut after the other.
 template <class B>
 OpenedBody Simulation<B>::Impl::with_open(const std::vector<Faces>& more) const {
-  OpenedBody all{problem, opened, twins, cut_so_far};
+  OpenedBody all{present_problem(), opened, twins, cut_so_far};
   Problem& next = all.problem;
-  // Leaves out what the start alone needs, and selections that have named their elements already.
-  next.body.initial = InitialOptions();
-  for (auto& [name, region] : next.body.regions) region.where.reset();
-  next.integration.macro_step = built.macro_step;
-  next.body.levels = built.meshes;
   TetMesh& mesh = next.body.levels.front();
   std::optional<TriangleSurface>& surface = next.body.surface;
   std::vector<int>& at = next.body.surface_vertex;
@@ -319,25 +330,38 @@ auto Simulation<B>::Impl::reopened(const std::vector<Faces>& saved) -> std::uniq
   return rebuilt(with_open(std::vector<Faces>(saved.begin() + count, saved.end())));
 }
 
-/// Takes over the state and everything else from a simulation with fewer open faces. That one is
-/// not to be used after this.
+/// Carries the state of level 0 over from a simulation with fewer open faces. Returns of each point
+/// that the surface has gained the one that it was before, see former_points().
 template <class B>
-void Simulation<B>::Impl::go_on_from(Impl& before) {
+std::vector<int> Simulation<B>::Impl::carry_over_cuts(Impl& before) {
   const Exec& exec = hierarchy().exec();
-  before.hierarchy().exec().fence("plica::cut");
-  before.accept_state();
   const std::vector<int> twin(twins.begin() + static_cast<std::ptrdiff_t>(before.twins.size()),
                               twins.end());
   Level<B>&was = before.hierarchy()[0], &is = hierarchy()[0];
   carry_vertices<B>(exec, was.state.u, is.state.u, twin);
   carry_vertices<B>(exec, was.state.v, is.state.v, twin);
   if (is.viscosity) carry_stresses<B>(exec, was, is, twin), is.viscosity->set_time(before.time);
+  const Contact<B>* touched = was.contact();
+  if (touched == nullptr) return {};
+  return former_points(problem.body.surface_vertex, touched->points(), was.model.vertices, twin);
+}
+
+/// Takes over the state and everything else from a simulation whose level 0 was another. That one
+/// is not to be used after this.
+template <class B>
+void Simulation<B>::Impl::go_on_from(Impl& before) {
+  const Exec& exec = hierarchy().exec();
+  before.hierarchy().exec().fence("plica::go_on");
+  before.accept_state();
+  std::vector<int> former;  // of points that the surface has gained; a part's move gains none
+  if (problem.body.following)
+    carry_over_part(before);
+  else
+    former = carry_over_cuts(before);
+  Level<B>&was = before.hierarchy()[0], &is = hierarchy()[0];
   is.set_evaluations(was.evaluations());
   if (const Contact<B>* contact = is.contact()) {
-    const Contact<B>& touched = *was.contact();
-    contact->take_memory(
-        exec, touched,
-        former_points(problem.body.surface_vertex, touched.points(), was.model.vertices, twin));
+    contact->take_memory(exec, *was.contact(), former);
     is.response().take_work(exec, was.response());
   }
   hierarchy().clock = before.hierarchy().clock;
@@ -353,6 +377,8 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   budget_known = before.budget_known, put_in = before.put_in, drift = before.drift;
   rejected = before.rejected, unsolved = before.unsolved, control = before.control;
   cut_until = before.cut_until, fronts = before.fronts;
+  part_moves = before.part_moves, looked_at = before.looked_at;
+  mesh_changes = before.mesh_changes + 1;
   graphs = before.graphs, after_repeated = before.after_repeated;
   if (before.cores) cores.emplace(hierarchy().exec());
   before.motions.reset_history();
@@ -363,7 +389,7 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
     hierarchy()[i].set_external(external, rest_positions(i));
   restart();
   if (before.step_start) keep(step_start.emplace());
-  exec.fence("plica::cut");
+  exec.fence("plica::go_on");
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

@@ -16,6 +16,7 @@
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
 #include <plica/meshes/blade_front.hpp>
+#include <plica/meshes/partly_refined.hpp>
 
 namespace plica {
 
@@ -104,6 +105,13 @@ struct Simulation<B>::Impl {
   double cut_until = -std::numeric_limits<double>::infinity();
   // [cuts of the problem] how far each blade has come; none: it does not cut now
   std::vector<std::optional<BladeFront>> fronts;
+  // Part that follows an obstacle, see simulation_follow.cpp: what its moves came to; per vertex of
+  // this mesh what it is in the mesh that the part is made of; number of macro steps when the
+  // obstacle was last looked at, which repeated steps do not do again
+  FollowReport part_moves;
+  std::vector<Ends> ends;
+  long looked_at = -1;
+  long mesh_changes = 0;       // number of times that level 0 was built again
   ExternalForces<B> external;  // the caller's, see set_external_forces()
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
@@ -154,12 +162,22 @@ struct Simulation<B>::Impl {
   void restart();
   void open_budget();
 
+  // Level 0 that is built again
+  Problem present_problem() const;
+  void go_on_from(Impl& before);
+
   // Cuts
   OpenedBody with_open(const std::vector<Faces>& more) const;
   std::unique_ptr<Impl> rebuilt(OpenedBody&& body);
   std::unique_ptr<Impl> reopened(const std::vector<Faces>& saved);
-  void go_on_from(Impl& before);
+  std::vector<int> carry_over_cuts(Impl& before);
   Faces open_so_far() const;
+
+  // A part that follows an obstacle
+  long steps_between_looks() const;
+  std::unique_ptr<Impl> with_part(std::vector<int> refined);
+  std::unique_ptr<Impl> with_saved_part(const std::optional<std::vector<int>>& saved);
+  void carry_over_part(Impl& before);
 
   // Recovery
   std::optional<Diagnosis> cover(bool checks);

@@ -333,10 +333,25 @@ void name_fronts(Archive<B>& archive, std::vector<std::optional<BladeFront>>& fr
   if (archive.restoring()) fronts = std::move(all);
 }
 
+/// Names the elements that a part which follows an obstacle is made of, and how often it has moved.
+/// Returns the elements, or those that are read; none: no part follows an obstacle.
+template <class B>
+std::optional<std::vector<int>> name_part(Archive<B>& archive,
+                                          const std::optional<FollowingPart>& part, long& moves) {
+  constexpr std::uint64_t mark = 0x666f6c6c6f77696e;
+  if (!archive.part(mark, part.has_value())) return {};
+  archive.number(moves);
+  std::vector<int> refined = part ? part->refined : std::vector<int>();
+  refined.resize(archive.count(refined.size()));
+  archive.number(refined.data(), refined.size() * sizeof(int));
+  return refined;
+}
+
 /// Names to the archive all that is carried from one macro step to the next, in a fixed order.
 template <class B, class Impl>
 void name_all(Impl& s, Archive<B>& archive) {
   name_cuts<B>(archive, s.opened);
+  name_part<B>(archive, s.problem.body.following, s.part_moves.moves);
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.levels.size());
@@ -375,16 +390,20 @@ void Simulation<B>::restore(const SavedState& saved) {
   using Archive = Archive<B>;
   impl_->hierarchy().exec().fence("plica::restore");
   std::vector<unsigned char> bytes = saved.bytes;
-  Archive faces(Archive::Task::restore, bytes), check(Archive::Task::check, bytes),
+  Archive meshes(Archive::Task::restore, bytes), check(Archive::Task::check, bytes),
       all(Archive::Task::restore, bytes);
-  std::unique_ptr<Impl> next = impl_->reopened(name_cuts<B>(faces, {}));  // none: has these cuts
+  const std::vector<Faces> opened = name_cuts<B>(meshes, {});
+  long moves = 0;
+  const std::optional<std::vector<int>> part = name_part<B>(meshes, {}, moves);
+  std::unique_ptr<Impl> next = impl_->reopened(opened);  // none: its mesh is that of the state
+  if (!next) next = impl_->with_saved_part(part);
   name_all<B>(next ? *next : *impl_, check);
   if (next) {
     next->go_on_from(*impl_);
     impl_ = std::move(next);
   }
   name_all<B>(*impl_, all);
-  impl_->cut_until = impl_->time;
+  impl_->cut_until = impl_->time, impl_->looked_at = -1;
   if (const Contact<B>* contact = impl_->hierarchy()[0].contact())
     impl_->motions.restore_snapshot(*contact, impl_->time);
   if (impl_->motions.commanded()) impl_->budget_known = false;

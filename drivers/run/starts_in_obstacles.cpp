@@ -5,12 +5,10 @@
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/core/time_functions.hpp>
 #include <plica/drivers/body/initial_state.hpp>
 #include <plica/drivers/contact/turning.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/mesh_quality.hpp>
@@ -22,17 +20,6 @@ namespace plica {
 namespace {
 
 constexpr double bearable_depth = 0.5;  // part of an edge
-
-ObstaclePose pose_at_start(const ObstacleOptions& options) {
-  std::vector<PathKnot> knots;
-  const Path path = make_path(options.motion, knots);
-  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement,
-                    .speed = {},
-                    .time = 0,
-                    .turn = {}};
-  if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
-  return pose;
-}
 
 /// The deepest of some places in a solid, and how many of them are in it.
 struct Deepest {

@@ -375,7 +375,7 @@ void validate_meshes(const Problem& problem) {
 void validate(const Problem& problem) {
   if (!problem.body.covers.empty()) {
     Problem composed = problem;
-    compose_levels(composed.body);
+    compose_levels(composed.body, composed.contact);
     return validate(composed);
   }
   validate_options(problem, problem.body.levels.size());

@@ -67,7 +67,8 @@ void validate_mesh(const TetMesh& mesh, int level);
 /// Checks what a mesh says of its pieces and of vertices that follow others. Throws InputError.
 void validate_pieces(const TetMesh& mesh, int level);
 
-/// Checks what a body with a part that is finer cannot have. Throws InputError.
+/// Checks what a body with a part that is finer cannot have, and more where the part follows an
+/// obstacle. Throws InputError.
 void validate_parts(const Problem& problem);
 
 /// Returns a sentence for each obstacle that the body starts deep in: where and how deep. Throws

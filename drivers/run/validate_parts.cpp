@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/run/compose_levels.hpp>
 #include <plica/drivers/run/validate.hpp>
 
 namespace plica {
@@ -46,10 +47,41 @@ namespace {
 
 bool runs_between_sets(const std::optional<FibreOptions>& fibres) { return fibres && fibres->from; }
 
+/// Returns why a problem's body cannot have a part that follows an obstacle; empty: it can.
+std::string refused_by_following(const Problem& problem) {
+  const Body& body = problem.body;
+  if (const std::string& cycle = problem.integration.cycle; cycle != "single" && cycle != "him")
+    return "integration.cycle is " + cycle +
+           ", which cannot go on with another part; expected "
+           "single or him";
+  if (!problem.cuts.empty())
+    return "cuts: a body with a part that moves cannot be cut; expected a part that stays, and "
+           "cuts, in runs of their own";
+  if (!body.surface)
+    return "body.surface: contact acts on points that stay when the part moves; expected a surface";
+  if (body.initial.position)
+    return "body.initial.position: a body whose part is made anew stays where its mesh is; leave "
+           "it out, and move the mesh";
+  if (is_viscous(body))
+    return "prony: stresses that relax cannot go on in other elements; expected no prony, or a "
+           "part that stays";
+  for (std::size_t i = 0; i < body.loads.size(); ++i)
+    if (std::holds_alternative<EnclosedVolume>(body.loads[i].load))
+      return text("body.loads.", i,
+                  ".enclosed_volume: a cavity cannot go on in other elements; expected "
+                  "follower_pressure");
+  return {};
+}
+
 }  // namespace
 
 void validate_parts(const Problem& problem) {
   const Body& body = problem.body;
+  if (body.following) {
+    followed_obstacle(body.following->follows, problem.contact);
+    if (const std::string why = refused_by_following(problem); !why.empty())
+      throw InputError("body.levels.0.refine.follows: " + why);
+  }
   const auto part =
       std::ranges::find_if(body.levels, [](const TetMesh& mesh) { return !mesh.piece.empty(); });
   if (part == body.levels.end()) return;

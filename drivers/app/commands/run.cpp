@@ -98,6 +98,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.held = simulation.held();
   summary.penetrations = output.penetrations();
   if (!scene.problem.cuts.empty()) summary.cuts = simulation.cuts();
+  if (scene.problem.body.following) summary.followed = simulation.followed();
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
   for (const std::string& sentence : step_advice(scene, simulation, summary))

@@ -50,8 +50,8 @@ class Probes {
                    : GrowingFile(file, probe_head(names_of(scene.output.probes)))) {}
 
   void write(const Simulation<B>& simulation, double time) {
-    if (const std::size_t cut = simulation.twins().size(); cut > cut_)
-      points_ = MaterialPoints<B>(simulation.mesh(), asked_), cut_ = cut;
+    if (const long changes = simulation.mesh_changes(); changes != changes_)
+      points_ = MaterialPoints<B>(simulation.mesh(), asked_), changes_ = changes;
     auto [positions, velocities] =
         points_.sample({}, simulation.displacement(), simulation.velocity());
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -64,7 +64,7 @@ class Probes {
  private:
   std::vector<Point> asked_;
   MaterialPoints<B> points_;
-  std::size_t cut_ = 0;  // number of vertices that cuts had added when points_ was made
+  long changes_ = 0;  // number of changes of the mesh before points_ was made
   Point placement_;
   GrowingFile file_;
 };
@@ -231,7 +231,7 @@ class RunOutput {
                   simulation_.pair_depth());
       if (border_.looks()) border_.look(time, simulation_.contact_pressure());
     }
-    files_.follow_cuts(simulation_);
+    files_.follow_mesh(simulation_);
     files_.write(now);
     for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))
       if (warned_.insert(name).second)

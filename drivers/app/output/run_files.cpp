@@ -292,6 +292,18 @@ void RunFiles::take_cut(const TetMesh& mesh, const std::optional<TriangleSurface
   history_.set_masses(vertex_masses(body_));
 }
 
+// A body whose part follows an obstacle is not moved to its place either, and has a surface that
+// stays
+void RunFiles::take_mesh(const TetMesh& mesh) {
+  body_.levels.front() = mesh;
+  for (std::size_t i = 0; i < volumes_.size(); ++i) {
+    if (volume_levels_[i] != 0) continue;
+    if (has_fibres(body_)) add_fibres(body_, 0);
+    volumes_[i] = {body_.levels.front(), vertex_masses(body_)};
+  }
+  history_.set_masses(vertex_masses(body_));
+}
+
 void RunFiles::write(const Snapshot& snapshot) {
   surface_frames_.write(surface_grid(snapshot));
   for (std::size_t i = 0; i < volume_frames_.size(); ++i)

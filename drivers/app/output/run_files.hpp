@@ -137,11 +137,15 @@ class RunFiles {
            const std::optional<FilesMark>& from = {});
   /// Writes a frame of the surface, one of each level of volumes(), and a row of the history.
   void write(const Snapshot& snapshot);
-  /// Takes over the mesh and the surface of a body that has been cut since the last call. To be
-  /// called before a snapshot of it is written. New vertices are the last ones.
+  /// Takes over the mesh and the surface of a body that has been cut since the last call, or whose
+  /// part has moved. To be called before a snapshot of it is written.
   template <class B>
-  void follow_cuts(const Simulation<B>& simulation) {
-    if (simulation.mesh().vertices.size() > body_.levels.front().vertices.size())
+  void follow_mesh(const Simulation<B>& simulation) {
+    if (simulation.mesh_changes() == mesh_changes_) return;
+    mesh_changes_ = simulation.mesh_changes();
+    if (body_.following)
+      take_mesh(simulation.mesh());
+    else
       take_cut(simulation.mesh(), simulation.surface(), simulation.surface_vertices());
   }
   const std::vector<int>& volumes() const { return volume_levels_; }  ///< levels that are written
@@ -163,6 +167,7 @@ class RunFiles {
   };
   void take_cut(const TetMesh& mesh, const std::optional<TriangleSurface>& surface,
                 const std::vector<int>& surface_vertices);
+  void take_mesh(const TetMesh& mesh);
   VtuGrid surface_grid(const Snapshot& snapshot) const;
   VtuGrid volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const;
 
@@ -175,6 +180,7 @@ class RunFiles {
   std::vector<int> skin_body_;    // body of each triangle; empty: one body
   std::vector<int> volume_levels_;
   std::vector<Volume> volumes_;
+  long mesh_changes_ = 0;  // number of changes of the mesh that were taken over
   std::vector<double> frame_times_;
   Frames surface_frames_;
   std::vector<Frames> volume_frames_;

@@ -227,6 +227,8 @@ std::string summary_json(const Scene& scene, const Summary& s,
     json["cuts"] = {{"opened_faces", s.cuts->opened_faces},
                     {"new_vertices", s.cuts->new_vertices},
                     {"pieces", s.cuts->pieces}};
+  if (s.followed)
+    json["followed"] = {{"moves", s.followed->moves}, {"wall_time", s.followed->seconds}};
   return json_text(json);
 }
 
@@ -359,6 +361,10 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                      s.cuts->new_vertices == 1 ? "1 vertex"
                                                : fmt::format("{} vertices", s.cuts->new_vertices),
                      counted(s.cuts->pieces, "piece"))});
+  if (s.followed)
+    rows.insert(rows.begin() + 1, {"part", fmt::format("made anew {} as it followed, in {}",
+                                                       counted(s.followed->moves, "time"),
+                                                       in_units(s.followed->seconds, "s"))});
   if (s.choice) rows.insert(rows.begin() + 1, {"cycle auto", choice_line(*s.choice)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }

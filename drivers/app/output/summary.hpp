@@ -38,13 +38,14 @@ struct Summary {
   std::map<std::string, long> counters;
   double residual = 0;  ///< largest residual of an implicit solve in the run
   std::optional<Diagnosis> diagnosis;
-  std::vector<Wrench> wrenches;       ///< forces and torques over the last macro step
-  std::vector<Reaction> reactions;    ///< forces and torques that hold vertices at the end
-  std::vector<ToolState> tools;       ///< poses of obstacles with mass at the end
-  std::vector<HeldBy> held;           ///< points that obstacles have grasped at the end
-  Penetrations penetrations;          ///< largest depths in all frames
-  std::optional<CutReport> cuts;      ///< outcome of the scene's cuts; none: it has none
-  std::vector<std::string> warnings;  ///< warnings about the scene and about the run
+  std::vector<Wrench> wrenches;          ///< forces and torques over the last macro step
+  std::vector<Reaction> reactions;       ///< forces and torques that hold vertices at the end
+  std::vector<ToolState> tools;          ///< poses of obstacles with mass at the end
+  std::vector<HeldBy> held;              ///< points that obstacles have grasped at the end
+  Penetrations penetrations;             ///< largest depths in all frames
+  std::optional<CutReport> cuts;         ///< outcome of the scene's cuts; none: it has none
+  std::optional<FollowReport> followed;  ///< moves of a part; none: no part follows
+  std::vector<std::string> warnings;     ///< warnings about the scene and about the run
   /// last good positions of the corners of the diagnosis' element, or of its vertex [m]
   std::vector<Point> diagnosed;
 };

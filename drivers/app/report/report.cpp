@@ -140,8 +140,9 @@ class Maker {
   }
 
   void add_films(std::size_t frames) {
-    const std::vector<Listed> listed = listed_films(folder_);
+    std::vector<Listed> listed = listed_films(folder_);
     if (listed.empty()) return;
+    leave_out_moving_parts(listed);
     std::size_t there = listed.front().entries.size();
     for (const Listed& film : listed) there = std::min(there, film.entries.size());
     report_.frames_there = there, data_["frames_there"] = there;
@@ -159,6 +160,17 @@ class Maker {
         films.size() > 1 && listed[1].level == 0 && films[0]->same_surface(*films[1]);
     for (std::size_t i = skin_of_level_0 ? 1 : 0; i < films.size(); ++i)
       data_["films"].push_back(films[i]->json());
+  }
+
+  // Leaves out the film of level 0 where a part of it follows an obstacle: each frame may have
+  // other elements
+  void leave_out_moving_parts(std::vector<Listed>& listed) {
+    if (!data_.contains("summary") || !data_["summary"].contains("followed")) return;
+    const auto of_level_0 = [](const Listed& film) { return film.level == 0; };
+    if (std::erase_if(listed, of_level_0) > 0)
+      report_.warnings.emplace_back(
+          "The elements of level 0 are not shown: those near an obstacle change from frame to "
+          "frame. The surface is shown.");
   }
 
   // Reads the last frame of a body that was cut, whose mesh all frames get

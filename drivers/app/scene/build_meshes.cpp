@@ -18,6 +18,7 @@
 #include <plica/meshes/jitter.hpp>
 #include <plica/meshes/lattice.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/refinement.hpp>
 
 namespace plica::app {
 
@@ -282,8 +283,12 @@ TetMesh generated(const LevelRecipe& recipe) {
                        cylinder.along);
 }
 
-TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest,
+// The boundary of a body whose part follows an obstacle is as fine everywhere as the part
+TriangleSurface surface_of(const SurfaceRecipe& recipe, const Body& body,
                            const Numbering& numbering) {
+  const TetMesh& finest = body.levels.front();
+  if (recipe.boundary && body.following)
+    return boundary_surface(refined(body.following->coarser)).surface;
   if (recipe.boundary) return boundary_surface(in_input_order(finest, numbering)).surface;
   const Box box = bounding_box(finest.vertices);
   const Point middle = (box.min + box.max) / 2;
@@ -444,8 +449,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
     const SourceLocation where = place_of(tree, "body.surface");
     body.surface =
         scene.surface->file.empty()
-            ? placed(where,
-                     [&] { return surface_of(*scene.surface, body.levels[0], scene.numbering[0]); })
+            ? placed(where, [&] { return surface_of(*scene.surface, body, scene.numbering[0]); })
             : from_file(*scene.surface, scene, where);
   }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)

@@ -102,6 +102,13 @@ void describe(V& v, Tube& o) {
   v("start", o.start, Vector{length}, "centre of the first end");
 }
 
+template <class V>
+void describe(V& v, RefineRecipe& o) {
+  describe(v, o.where);
+  v.alternative("follows", o.follows, Group{},
+                "what is round an obstacle, chosen anew as it moves");
+}
+
 inline constexpr const char* scale_help = "metres per unit of that file: 0.001 for millimetres";
 inline constexpr const char* weld_help =
     "points on open edges at most this part of the box's diagonal apart become one, as exporters "

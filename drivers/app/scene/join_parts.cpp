@@ -15,12 +15,14 @@ void join_parts(Scene& scene, const Tree& tree) {
     if (!is_part(recipe)) continue;
     LevelCover& cover = body.covers[i] = recipe.covers.value_or(LevelCover{});
     cover.border = recipe.border;
-    if (recipe.refine) cover.where = recipe.refine, cover.refined = true;
+    if (!recipe.refine) continue;
+    cover.refined = true, cover.follows = recipe.refine->follows;
+    if (!cover.follows) cover.where = recipe.refine->where;
   }
   if (body.covers.empty()) return;
   scene.numbering = std::move(numbering);
   try {
-    for (const std::string& doubt : compose_levels(body))
+    for (const std::string& doubt : compose_levels(body, scene.problem.contact))
       scene.warnings.push_back(scene.file + ": " + doubt);
   } catch (const InputError& error) {
     throw located(error, tree);

@@ -58,6 +58,12 @@ struct LatticesRecipe {
   double weld = weld_distance;  ///< see weld_open_edges(), as a part of the box's diagonal
 };
 
+/// Elements of the next coarser level that are cut in eight.
+struct RefineRecipe {
+  Selection where;                       ///< elements, unless they follow an obstacle
+  std::optional<FollowOptions> follows;  ///< choice of those round an obstacle; none: `where`
+};
+
 /// Source of a level: a generated mesh, a file, a lattice, or a coarse space of the mesh before it.
 struct LevelRecipe {
   std::optional<BoxRecipe> box;
@@ -70,7 +76,7 @@ struct LevelRecipe {
   /// number of points of a coarse space; 0: auto, as many spaces as are needed
   std::optional<int> coarsen;
   /// elements of the next coarser level that make this one, each cut in eight
-  std::optional<Selection> refine = {};
+  std::optional<RefineRecipe> refine = {};
   std::optional<LevelCover> covers = {};  ///< part of the body that it covers; none: all of it
   std::string border = {};                ///< see LevelCover
   std::string file;                       ///< mesh file, relative to the scene

@@ -305,6 +305,10 @@ void show_live(const Scene& scene, Simulation<B>& simulation, const LiveOptions&
     throw InputError(
         "cuts: a live view shows a body that stays whole; expected a scene without cuts, or plica "
         "run");
+  if (scene.problem.body.following)
+    throw InputError(
+        "body.levels.0.refine.follows: a live view shows one mesh; expected a part that stays, "
+        "such as sphere, or plica run");
   LiveView<B>(scene, simulation, options, forces).run();
 }
 

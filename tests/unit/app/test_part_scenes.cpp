@@ -141,6 +141,43 @@ TEST(PartScenes, OneOfSeveralBodiesMayHaveAPart) {
   EXPECT_FALSE(mesh.followers.vertex.empty());
 }
 
+const std::string tool =
+    "contact: {obstacles: [{name: tool, sphere: {centre: [0.1, 0.05, 0.13], "
+    "radius: 2 cm}, velocity: [2, 0, 0]}]}\n";
+
+TEST(PartScenes, FollowATool) {
+  const Scene scene = scene_of(
+      scene_with("    - {refine: {follows: {obstacle: tool, radius: 7 cm}}}\n" + whole) + tool);
+  const Body& body = scene.problem.body;
+  ASSERT_EQ(body.levels.size(), 1u);
+  ASSERT_TRUE(body.following);
+  EXPECT_EQ(std::ssize(body.levels.front().tets),
+            6 * 12 * 3 * 3 + 7 * std::ssize(body.following->refined));
+  EXPECT_FALSE(body.following->refined.empty());
+  // the surface is as fine everywhere: two triangles on each of 24 x 6 cells of four sides, and of
+  // 6 x 6 on two
+  EXPECT_EQ(body.surface->triangles.size(), 2u * (4 * 24 * 6 + 2 * 6 * 6));
+  validate(scene.problem);
+  Simulation<plica::test::Host> simulation(scene.problem);
+  while (simulation.time() < 0.05) EXPECT_FALSE(simulation.step_checked());
+  EXPECT_GE(simulation.followed().moves, 1);
+}
+
+TEST(PartScenes, SayWhatTheyCannotFollow) {
+  const auto error = [](const std::string& part) {
+    return error_of(scene_with("    - {refine: " + part + "}\n" + whole) + tool);
+  };
+  EXPECT_EQ(
+      error("{follows: {obstacle: tol, radius: 7 cm}}")
+          .find("a.yaml:5: body.levels.0.refine.follows.obstacle: unknown obstacle 'tol'; did "
+                "you mean 'tool'?"),
+      0u);
+  EXPECT_EQ(error("{follows: {obstacle: tool, radius: -7 cm}}")
+                .find("a.yaml:5: body.levels.0.refine.follows.radius"),
+            0u);
+  EXPECT_NE(error("{follows: {obstacle: tool, radius: 7 cm}, sphere: {radius: 1 cm}}"), "no error");
+}
+
 TEST(PartScenes, SayWhatIsWrongAndWhere) {
   const auto error = [](const std::string& levels) { return error_of(scene_with(levels)); };
   EXPECT_EQ(
@@ -182,6 +219,7 @@ TEST(PartScenes, AreInTheSchema) {
   EXPECT_EQ(level["covers"]["anyOf"][0]["const"], "part");
   EXPECT_TRUE(level["covers"]["anyOf"][1]["properties"].contains("sphere"));
   EXPECT_TRUE(level["refine"]["properties"].contains("box"));
+  EXPECT_TRUE(level["refine"]["properties"]["follows"]["properties"].contains("radius"));
 }
 
 }  // namespace
