@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <numeric>
 #include <plica/meshes/reordering.hpp>
@@ -71,22 +72,31 @@ Followers renumbered(const Followers& followers, const std::vector<int>& new_num
 
 }  // namespace
 
-Reordering locality_order(const TetMesh& mesh) {
+std::vector<int> tets_along_curve(const TetMesh& mesh) {
   const Box box = bounding_box(mesh.vertices);
   const double size = (box.max - box.min).maxCoeff();
-  std::vector<std::uint64_t> keys;
-  keys.reserve(mesh.tets.size());
+  struct Place {
+    std::uint64_t key;
+    int tet;
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> places;
+  places.reserve(mesh.tets.size());
   for (const auto& tet : mesh.tets) {
     Point centroid = Point::Zero();
     for (const int v : tet) centroid += mesh.vertices[static_cast<std::size_t>(v)] / 4.0;
-    keys.push_back(key_of(centroid, box, size));
+    places.push_back({key_of(centroid, box, size), static_cast<int>(places.size())});
   }
+  if (!std::ranges::is_sorted(places)) std::ranges::sort(places);
+  std::vector<int> tets;
+  tets.reserve(places.size());
+  for (const Place& place : places) tets.push_back(place.tet);
+  return tets;
+}
+
+Reordering locality_order(const TetMesh& mesh) {
   Reordering order;
-  order.tets.resize(mesh.tets.size());
-  std::iota(order.tets.begin(), order.tets.end(), 0);
-  std::stable_sort(order.tets.begin(), order.tets.end(), [&](int a, int b) {
-    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
-  });
+  order.tets = tets_along_curve(mesh);
   std::vector<bool> taken(mesh.vertices.size(), false);
   const auto take = [&](int v) {
     if (!taken[static_cast<std::size_t>(v)]) order.vertices.push_back(v);

@@ -11,9 +11,13 @@ struct Reordering {
   std::vector<int> tets;      ///< per new tetrahedron its old number
 };
 
-/// Returns an order in which neighbours in space are neighbours in memory. Tetrahedra follow a
-/// Hilbert curve through their centroids; vertices come in the order in which these tetrahedra
-/// first use them. The order of a mesh is equal on every machine.
+/// Returns the tetrahedra along a Hilbert curve through their centroids. Those in one cell of the
+/// curve's grid, 2^21 cells along an edge of the bounding cube, ascend.
+std::vector<int> tets_along_curve(const TetMesh& mesh);
+
+/// Returns an order in which neighbours in space are neighbours in memory. Tetrahedra follow
+/// tets_along_curve(); vertices come in the order in which these tetrahedra first use them. The
+/// order of a mesh is equal on every machine.
 Reordering locality_order(const TetMesh& mesh);
 
 /// Returns the inverse order: per old number the new one.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <plica/drivers/elastic/build_patches.hpp>
 #include <plica/drivers/elastic/vertex_shares.hpp>
+#include <plica/meshes/reordering.hpp>
 #include <span>
 #include <utility>
 
@@ -13,75 +14,77 @@ namespace plica {
 
 namespace {
 
-class Bisection {
+/// Cutter of a list of tetrahedra into runs.
+class RunCutter {
  public:
-  Bisection(const TetMesh& mesh, int elements, int vertices)
-      : mesh_(mesh), elements_(elements), vertices_(vertices), seen_(mesh.vertices.size(), -1) {
-    centroid_.reserve(mesh.tets.size());
-    for (const auto& t : mesh.tets) {
-      Point sum = Point::Zero();
-      for (const int v : t) sum += mesh.vertices[index_of(v)];
-      centroid_.push_back(sum / 4);
+  RunCutter(const TetMesh& mesh, int elements, int vertices)
+      : mesh_(mesh),
+        elements_(index_of(elements)),
+        vertices_(vertices),
+        seen_(mesh.vertices.size(), -1) {}
+
+  /// Adds the runs of some tetrahedra of one region. They are about equally long.
+  void cut(std::span<const int> tets) {
+    while (!tets.empty()) {
+      const std::size_t count = (tets.size() + elements_ - 1) / elements_,
+                        even = whole_packs((tets.size() + count - 1) / count + pack - 1);
+      const std::size_t length = fitting(tets.first(std::min({even, elements_, tets.size()})));
+      std::vector<int>& run =
+          runs.emplace_back(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(length));
+      std::ranges::sort(run);
+      tets = tets.subspan(length);
     }
   }
 
-  void split(std::span<int> tets) {
-    const auto size = static_cast<std::ptrdiff_t>(tets.size());
-    if (size == 0) return;
-    if (size <= elements_ && (size == 1 || count_vertices(tets) <= vertices_)) {
-      std::ranges::sort(tets);
-      clusters.emplace_back(tets.begin(), tets.end());
-      return;
-    }
-    Box box{centroid(tets.front()), centroid(tets.front())};
-    for (const int e : tets) box = {box.min.cwiseMin(centroid(e)), box.max.cwiseMax(centroid(e))};
-    int axis = 0;
-    (box.max - box.min).maxCoeff(&axis);
-    // A whole number of groups on either side, so that most groups become full.
-    const auto groups = std::max<std::ptrdiff_t>(2, (size + elements_ - 1) / elements_);
-    const auto middle = static_cast<std::size_t>(size * (groups / 2) / groups);
-    std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(middle), tets.end(),
-                     [&](int a, int b) {
-                       return std::pair(centroid(a)[axis], a) < std::pair(centroid(b)[axis], b);
-                     });
-    split(tets.first(middle));
-    split(tets.subspan(middle));
-  }
-
-  std::vector<std::vector<int>> clusters;
+  std::vector<std::vector<int>> runs;
 
  private:
+  static constexpr std::size_t pack = 8;  // elements that registers of a CPU hold side by side
   const TetMesh& mesh_;
-  std::ptrdiff_t elements_;
+  std::size_t elements_;
   int vertices_;
-  std::vector<int> seen_;
-  std::vector<Point> centroid_;
+  std::vector<int> seen_;  // [vertices] last run that counted the vertex
   int stamp_ = 0;
 
-  const Point& centroid(int e) const { return centroid_[index_of(e)]; }
+  static std::size_t whole_packs(std::size_t tets) { return tets / pack * pack; }
 
-  int count_vertices(std::span<const int> tets) {
+  /// Returns how many of the first tetrahedra have few enough vertices. Where that is not all of
+  /// them, it is a whole number of packs if they fill one.
+  std::size_t fitting(std::span<const int> tets) {
     int count = 0;
     ++stamp_;
-    for (const int e : tets)
-      for (const int v : mesh_.tets[index_of(e)])
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+      for (const int v : mesh_.tets[index_of(tets[i])])
         count += std::exchange(seen_[index_of(v)], stamp_) != stamp_ ? 1 : 0;
-    return count;
+      if (count > vertices_) return i < pack ? i : whole_packs(i);
+    }
+    return tets.size();
   }
 };
 
 }  // namespace
 
-std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements, int vertices) {
-  Grouping regions = tets_by_region(mesh);
-  Bisection bisection(mesh, elements, vertices);
-  for (std::size_t r = 0; r < regions.groups(); ++r) bisection.split(regions.of(r));
-  return std::move(bisection.clusters);
+std::vector<std::vector<int>> element_runs(const TetMesh& mesh, int elements, int vertices) {
+  constexpr std::size_t stretch = 4096;
+  std::vector<int> tets = tets_along_curve(mesh);
+  RunCutter cutter(mesh, elements, vertices);
+  const auto region = [&](int e) { return mesh.region.empty() ? 0 : mesh.region[index_of(e)]; };
+  for (std::size_t begin = 0; begin < tets.size(); begin += stretch) {
+    const std::span all = std::span(tets).subspan(begin, std::min(stretch, tets.size() - begin));
+    std::ranges::stable_sort(all, {}, region);
+    for (auto first = all.begin(); first != all.end();) {
+      const auto last =
+          std::find_if(first, all.end(), [&](int e) { return region(e) != region(*first); });
+      cutter.cut({first, last});
+      first = last;
+    }
+  }
+  return std::move(cutter.runs);
 }
 
 namespace {
 
-/// Builder of patches from clusters of elements.
+/// Builder of patches from runs of elements.
 template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
@@ -90,17 +93,16 @@ class PatchBuilder {
                         at_once = static_cast<std::size_t>(P::at_once);
 
  public:
-  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& clusters)
-      : mesh_(mesh), clusters_(clusters) {
-    std::vector<Vertices> of(clusters.size());
-    for_row_ranges(clusters.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p) of[p] = vertices_of(clusters[p]);
+  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& runs)
+      : mesh_(mesh), runs_(runs) {
+    std::vector<Vertices> of(runs.size());
+    for_row_ranges(runs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) of[p] = vertices_of(runs[p]);
     });
-    for (std::size_t p = 0; p < clusters.size(); ++p) {
+    for (std::size_t p = 0; p < runs.size(); ++p) {
       vertex_.insert(vertex_.end(), of[p].vertex.begin(), of[p].vertex.end());
       first_vertex_.push_back(static_cast<int>(vertex_.size()));
-      first_pack_.push_back(first_pack_.back() +
-                            static_cast<int>((clusters[p].size() + W - 1) / W));
+      first_pack_.push_back(first_pack_.back() + static_cast<int>((runs[p].size() + W - 1) / W));
       first_sum_.push_back(first_sum_.back() + static_cast<int>(of[p].sums()));
       first_slot_.push_back(first_slot_.back() + of[p].slots());
     }
@@ -108,7 +110,7 @@ class PatchBuilder {
 
   P on_device() const {
     P patches;
-    patches.count = static_cast<int>(clusters_.size());
+    patches.count = static_cast<int>(runs_.size());
     patches.vertices = static_cast<int>(mesh_.vertices.size());
     patches.packs = first_pack_.back();
     patches.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
@@ -126,7 +128,7 @@ class PatchBuilder {
     const Elements elements{corner.data(), shape.data(), element.data()};
     const Sums sums{summed.data(), first_slot.data(), slot.data()};
     sums.first_slot[0] = 0;
-    for_row_ranges(clusters_.size(), [&](std::size_t begin, std::size_t end) {
+    for_row_ranges(runs_.size(), [&](std::size_t begin, std::size_t end) {
       std::vector<int> local(mesh_.vertices.size());  // [vertices] place in the patch
       for (std::size_t p = begin; p < end; ++p) add_patch(p, local, elements, sums);
     });
@@ -142,16 +144,16 @@ class PatchBuilder {
   template <class Values>
   Scalars<B> of_regions(const std::string& name, const Values& values) const {
     std::vector<Real> all;
-    for (const std::vector<int>& cluster : clusters_)
-      for (const double value : std::span<const double>(values(
-               index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())]))))
+    for (const std::vector<int>& run : runs_)
+      for (const double value : std::span<const double>(
+               values(index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(run.front())]))))
         all.push_back(static_cast<Real>(value));
     return to_device<Scalars<B>>(name, all);
   }
 
  private:
   const TetMesh& mesh_;
-  const std::vector<std::vector<int>>& clusters_;
+  const std::vector<std::vector<int>>& runs_;
   std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_sum_{0};
   std::vector<std::size_t> first_slot_{0};  // [patches + 1]
 
@@ -201,8 +203,8 @@ class PatchBuilder {
     std::vector<std::vector<std::uint16_t>> slots(v1 - v0);
     const std::size_t begin = index_of(first_pack_[p]) * W, end = index_of(first_pack_[p + 1]) * W;
     for (std::size_t i = begin; i < end; ++i) {
-      const bool padding = i - begin >= clusters_[p].size();
-      const int e = padding ? -1 : clusters_[p][i - begin];
+      const bool padding = i - begin >= runs_[p].size();
+      const int e = padding ? -1 : runs_[p][i - begin];
       to.element[i] = e;
       for (std::size_t c = 0; c < 4; ++c) {
         const int v = padding ? 0 : local[index_of(mesh_.tets[index_of(e)][c])];
@@ -257,8 +259,8 @@ class PatchBuilder {
 template <class B>
 Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
                          const std::vector<double>& damping) {
-  const auto clusters = element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
-  const PatchBuilder<B> builder(mesh, clusters);
+  const auto runs = element_runs(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
+  const PatchBuilder<B> builder(mesh, runs);
   Patches<B> patches = builder.on_device();
   patches.constants = builder.of_regions("patches.constants",
                                          [&](std::size_t r) { return std::span(constants[r]); });

@@ -6,10 +6,12 @@
 
 namespace plica {
 
-/// Returns tetrahedra in groups of neighbours, with at most `elements` elements and `vertices`
-/// vertices. Each group is of one region, and in mesh order. Groups are made by recursive bisection
-/// across the longest extent of the centroids.
-std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements, int vertices);
+/// Returns tetrahedra in runs along the mesh's Hilbert curve, see tets_along_curve(). A run is of
+/// one region and in mesh order, and has at most `elements` elements and `vertices` vertices.
+///
+/// The curve is cut into stretches of 4096 tetrahedra, and each region's part of a stretch into
+/// runs. So a run depends on its own stretch alone.
+std::vector<std::vector<int>> element_runs(const TetMesh& mesh, int elements, int vertices);
 
 /// Returns the patches of a mesh.
 /// @param constants  constants of the material per region, the same number in every region

@@ -30,7 +30,7 @@ inline Field disorder(std::size_t n, double size, unsigned seed) {
 
 /// An irregular box of several patches, the last pack of which is not full.
 inline TetMesh irregular_box() {
-  TetMesh mesh = box_mesh({Point::Zero(), Point(0.1, 0.1, 0.1)}, {5, 4, 3});
+  TetMesh mesh = box_mesh({Point::Zero(), Point(0.1, 0.1, 0.1)}, {5, 3, 3});
   const Field shift = disorder(mesh.vertices.size(), 0.004, 3);
   for (std::size_t a = 0; a < shift.size(); ++a) mesh.vertices[a] += shift[a];
   return mesh;
