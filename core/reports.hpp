@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
@@ -157,6 +158,16 @@ struct Diagnosis {
   std::string reason;        ///< details in words, such as those of a solver
   std::string remedy;        ///< remedy that is most likely to help
   std::string text() const;  ///< returns one sentence with all of it
+};
+
+/// How several ranks share a body, and what they have sent each other.
+struct RankReport {
+  int count = 1;                ///< number of ranks
+  double imbalance = 1;         ///< largest number of tetrahedra of a rank over the mean
+  std::int64_t messages = 0;    ///< messages of all ranks so far
+  std::int64_t bytes = 0;       ///< size of these
+  double wait_share = 0;        ///< part of the time that a rank waits for others, mean
+  double most_wait_share = 0;   ///< part of the time that a rank waits for others, maximum
 };
 
 /// Outcome of a cut, or of all cuts of a simulation so far.

@@ -74,6 +74,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   choose_held(surface.held);
   make_laws(options, surface);
   choose_whole(options.whole_surface, surface.surface);
+  if (surface.kept) keep_points(surface);
   if (couples()) connect(surface.surface);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge),
@@ -124,6 +125,16 @@ void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& su
   const double edge = mean_surface_edge(surface);
   for (const auto& obstacle : obstacles_)
     whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < wide * edge));
+}
+
+/// Leaves out the points that other ranks have; the laws are those of the whole surface.
+template <class B>
+void Contact<B>::keep_points(const TouchingSurface& surface) {
+  points_ = static_cast<int>(surface.kept->size());
+  if (surface.body.empty()) return;
+  std::vector<int> body;
+  for (const int p : *surface.kept) body.push_back(surface.body[static_cast<std::size_t>(p)]);
+  body_ = to_device<Indices<B>>("contact.body", body);
 }
 
 template <class B>

@@ -66,6 +66,7 @@ struct TouchingSurface {
   std::vector<std::vector<int>> held;
   double edge = 0;  ///< mean edge of all bodies [m]
   double size = 0;  ///< size of the whole surface [m]; a point deeper in an obstacle is lost
+  std::optional<std::vector<int>> kept = {};  ///< points that this rank has; none: all
 };
 
 /// Contact of the body's surface with all obstacles and with itself: the part that all levels
@@ -162,6 +163,7 @@ class Contact {
   void make_memory(const ContactOptions& options);
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
+  void keep_points(const TouchingSurface& surface);
   void connect(const TriangleSurface& surface);
   void connect_edges(const TriangleSurface& surface);
 };

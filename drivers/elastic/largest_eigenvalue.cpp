@@ -5,6 +5,7 @@
 #include <plica/drivers/elastic/largest_eigenvalue.hpp>
 #include <plica/kernels/elastic/stiffness_lanczos.hpp>
 #include <plica/kernels/followers.hpp>
+#include <plica/kernels/halo.hpp>
 #include <utility>
 
 namespace plica {
@@ -17,6 +18,7 @@ double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vec
                 const Vectors<B>& y, const BlockSums<B>& blocks, const Doubles<B>& result) {
   follow_masters(exec, K.level.model, x);
   K.elasticity.tangent(exec, K.level, K.u, x, K.damping_scale);
+  complete_shares<B>(exec, K.level);
   reduce<B, 1>(exec, "plica::lanczos_stiffness", K.level.model.vertices,
                StiffnessProduct<B>{K.level.model, K.level.partial, x, y}, blocks, result);
   return host_values(exec, result)[0];

@@ -227,6 +227,24 @@ LevelPart part_of_level(const TetMesh& mesh, Element element,
 
 namespace {
 
+/// Returns the tetrahedra of the patches of any backend.
+std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
+  using P = Patches<Backend<double, Kokkos::DefaultHostExecutionSpace>>;
+  return element_runs(mesh, P::capacity, P::vertex_capacity);
+}
+
+}  // namespace
+
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks) {
+  const auto runs = runs_of_patches(mesh);
+  LevelPart made =
+      part_of_level(mesh, element, runs, rank_ranges(mesh, runs, ranks.count()), ranks.own());
+  made.ranks = &ranks;
+  return made;
+}
+
+namespace {
+
 /// Local number of a vertex of the whole mesh; -1: the part does not have it.
 int local_in(const RankPart& part, int v) {
   const auto at = std::ranges::lower_bound(part.vertex, v);
@@ -329,8 +347,7 @@ void count_nodal(const TetMesh& mesh, const RankRanges& ranges, std::vector<Rank
 }  // namespace
 
 std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks) {
-  using P = Patches<Backend<double, Kokkos::DefaultHostExecutionSpace>>;
-  const auto runs = element_runs(mesh, P::capacity, P::vertex_capacity);
+  const auto runs = runs_of_patches(mesh);
   const RankRanges ranges = rank_ranges(mesh, runs, ranks);
   std::vector<RankPlan> plans(index_of(ranks));
   for (int r = 0; r < ranks; ++r) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/rank_part.hpp>
+#include <plica/core/ranks.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <span>
@@ -27,6 +28,7 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
+  Ranks* ranks = nullptr;
   RankPart part;
   TetMesh mesh;  ///< vertices and tetrahedra of the part, with local numbers
   /// own runs, of local tetrahedra; of linear elements
@@ -44,6 +46,8 @@ struct LevelPart {
 LevelPart part_of_level(const TetMesh& mesh, Element element,
                         const std::vector<std::vector<int>>& runs, const RankRanges& ranges,
                         int own);
+/// Returns this rank's part of a level in a simulation of several ranks.
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks);
 
 /// Returns the constants of the part's vertices and tetrahedra.
 LevelConstants constants_of_part(const LevelConstants& whole, const RankPart& part);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/time/energies.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
@@ -11,15 +12,13 @@ namespace plica {
 
 template <class B>
 EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
-                            const Point& gravity)
-    : hierarchy_(hierarchy), result_("plica::energies", 6) {
+                            double mass, const Point& gravity)
+    : hierarchy_(hierarchy), mass_(mass), result_("plica::energies", 6) {
+  std::vector<double> edges = local_edge_lengths(mesh);
+  if (hierarchy[0].ranks) edges = hierarchy[0].ranks->part.local(edges);
   std::vector<typename B::Real> per_edge;
-  for (const double edge : local_edge_lengths(mesh))
-    per_edge.push_back(static_cast<typename B::Real>(1 / edge));
+  for (const double edge : edges) per_edge.push_back(static_cast<typename B::Real>(1 / edge));
   inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
-  const auto mass =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
-  for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
   set_gravity(gravity);
   const LevelData<B>& level = hierarchy[0];
   blocks_ = BlockSums<B>(std::max(
