@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/exact_sum.hpp>
 #include <plica/core/fields.hpp>
 #include <plica/core/launch.hpp>
 #include <type_traits>
@@ -83,14 +84,118 @@ struct SumOfBlock {
   }
 };
 
-/// Sums of block b, as the terms of a sum over the blocks.
-template <class B, int N, class Tally>
-struct BlockTotal {
+/// Digits of a sum, as a sum over the threads of a team.
+template <int N>
+struct DigitSums {
+  std::int64_t digit[N] = {};
+  KOKKOS_INLINE_FUNCTION DigitSums& operator+=(const DigitSums& other) {
+    for (int i = 0; i < N; ++i) digit[i] += other.digit[i];
+    return *this;
+  }
+};
+
+}  // namespace plica
+
+template <int N>
+struct Kokkos::reduction_identity<plica::DigitSums<N>> {
+  KOKKOS_FORCEINLINE_FUNCTION static plica::DigitSums<N> sum() { return {}; }
+};
+
+namespace plica {
+
+/// Returns the exact sum of value(b) over b < count, see ExactSum. All threads of the team get it.
+/// Threads hold a window of digits, which is wide enough for terms that differ by less than 2^100.
+/// Where they differ by more, or are not finite, each thread adds up all of them.
+template <class B, class Member, class Value>
+KOKKOS_INLINE_FUNCTION double exact_sum(const Member& team, int count, const Value& value) {
+  constexpr int window = 6, spare = 2;
+  using Extent = Sums<3, 3>;  // 64 - the lowest digit, the highest one, 1 where not finite
+  using Digits = DigitSums<window + spare>;
+  Extent extent;
+  Kokkos::parallel_reduce(
+      Kokkos::TeamThreadRange(team, count),
+      [&](int b, Extent& all) {
+        const double x = value(b);
+        Extent own;
+        if (!is_finite(x)) {
+          own[2] = 1;
+        } else if (x != 0) {
+          const int first = NumberDigits(x).first;
+          own[0] = 64 - first, own[1] = first + NumberDigits::count;
+        }
+        all += own;
+      },
+      Kokkos::Sum<Extent, typename B::Memory>(extent));
+  const int first = 64 - static_cast<int>(extent[0]);
+  if (extent[2] > 0 || static_cast<int>(extent[1]) - first > window) {
+    ExactSum sum;
+    for (int b = 0; b < count; ++b) sum.add(value(b));
+    return sum.take();
+  }
+  Digits total;
+  Kokkos::parallel_reduce(
+      Kokkos::TeamThreadRange(team, count),
+      [&](int b, Digits& sum) {
+        const NumberDigits number(value(b));
+        for (int i = 0; i < window; ++i)
+          for (int k = 0; k < NumberDigits::count; ++k)
+            if (number.first - first + k == i) sum.digit[i] += number.digit[k];
+      },
+      Kokkos::Sum<Digits, typename B::Memory>(total));
+  return rounded_digits(total.digit, window + spare, first);
+}
+
+/// Totals of the blocks' sums: the sum over b < count of blocks(b, k), or the maximum.
+template <class B>
+struct TotalOfBlocks {
+  int count;
   typename BlockSums<B>::View blocks;
-  KOKKOS_INLINE_FUNCTION Tally operator()(int b) const {
-    Tally total;
-    for (int k = 0; k < N; ++k) total[k] = blocks(b, k);
+
+  KOKKOS_INLINE_FUNCTION double sum(int k) const {
+    ExactSum total;
+    for (int b = 0; b < count; ++b) total.add(blocks(b, k));
+    return total.take();
+  }
+  KOKKOS_INLINE_FUNCTION double most(int k) const {
+    double total = 0;
+    for (int b = 0; b < count; ++b) total = total < blocks(b, k) ? blocks(b, k) : total;
     return total;
+  }
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION double sum(const Member& team, int k) const {
+    return exact_sum<B>(team, count, [&](int b) { return blocks(b, k); });
+  }
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION double most(const Member& team, int k) const {
+    double total = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, count),
+        [&](int b, double& all) { all = all < blocks(b, k) ? blocks(b, k) : all; },
+        Kokkos::Max<double, typename B::Memory>(total));
+    return Kokkos::max(total, 0.0);
+  }
+};
+
+/// Computes result(k) = total k of the blocks, then the work that follows.
+template <class B, int N, int Maxima, class Then>
+struct FinishSum {
+  using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
+  TotalOfBlocks<B> blocks;
+  Doubles<B> result;
+  Then then;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    for (int k = 0; k < N; ++k) result(k) = k < N - Maxima ? blocks.sum(k) : blocks.most(k);
+    then();
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    double total[N];
+    for (int k = 0; k < N; ++k)
+      total[k] = k < N - Maxima ? blocks.sum(team, k) : blocks.most(team, k);
+    Kokkos::single(Kokkos::PerTeam(team), [&]() {
+      for (int k = 0; k < N; ++k) result(k) = total[k];
+      then();
+    });
   }
 };
 
@@ -109,13 +214,14 @@ template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
-/// Computes result(k) = sum over i < n of term(i)[k]. The order of additions depends on n alone.
-/// term: Tally operator()(int) const. Work that needs the result alone may follow without a launch
-/// of its own. then: void operator()() const.
+/// Computes result(k) = sum over i < n of term(i)[k]. The sums of blocks depend on their items
+/// alone; their total is exact but for one rounding, so that it does not depend on the order of the
+/// blocks. term: Tally operator()(int) const. Work that needs the result alone may follow without a
+/// launch of its own. then: void operator()() const.
 ///
 ///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     in each block in order
 ///                  |                      |                  |
-///   blocks    sum of block 0        sum of block 1         ...         in order
+///   blocks    sum of block 0        sum of block 1         ...         in any order
 ///                  \_______________________|__________________/
 ///   result                       their sum, then `then`
 template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
@@ -133,8 +239,7 @@ void reduce(const typename B::Exec& exec, const char* label, int n, const Term& 
     sum_blocks<B>(exec, label, count, N, Tally::maxima, parts, result);
   else
     launch_blocks<B>(exec, label, 1,
-                     SumOfBlock<B, N, BlockTotal<B, N, Tally>, Tally, Then>{
-                         count, count, {parts}, whole, true, then});
+                     FinishSum<B, N, Tally::maxima, Then>{{count, parts}, result, then});
 }
 
 }  // namespace plica
