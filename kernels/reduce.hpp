@@ -31,11 +31,55 @@ struct Kokkos::reduction_identity<plica::Sums<N, Maxima>> {
 
 namespace plica {
 
+/// Items of a reduction: terms are computed of all, and summed over those that are owned.
+struct Items {
+  int n;      ///< number of items
+  int first;  ///< first owned one
+  int last;   ///< one behind the last owned one
+
+  /// Makes n items, all of them owned.
+  KOKKOS_INLINE_FUNCTION Items(int count) : n(count), first(0), last(count) {}  // NOLINT: as an int
+  /// Makes n items, of which [first, last) are owned.
+  KOKKOS_INLINE_FUNCTION Items(int count, int first_owned, int last_owned)
+      : n(count), first(first_owned), last(last_owned) {}
+};
+
+/// Blocks of items. Those of owned items come first; then those of the items before and after them.
+///
+///   items    0 ........... first ............ last ........... n
+///   blocks   | own, own + 1, ... | 0 ... own - 1 | after those |
+struct ItemBlocks {
+  static constexpr int block = 512;  ///< items of a block, whatever the number of threads
+  Items items;
+  /// Items [begin, end) of a block.
+  struct Range {
+    int begin, end;
+  };
+
+  KOKKOS_INLINE_FUNCTION int blocks_of(int count) const { return (count + block - 1) / block; }
+  KOKKOS_INLINE_FUNCTION int owned() const { return blocks_of(items.last - items.first); }
+  KOKKOS_INLINE_FUNCTION int count() const {
+    return owned() + blocks_of(items.first) + blocks_of(items.n - items.last);
+  }
+  KOKKOS_INLINE_FUNCTION Range at(int b) const {
+    const int own = owned(), before = blocks_of(items.first);
+    if (b < own) return part(items.first, items.last, b);
+    if (b < own + before) return part(0, items.first, b - own);
+    return part(items.last, items.n, b - own - before);
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION Range part(int first, int last, int b) const {
+    const int begin = first + b * block;
+    return {begin, Kokkos::min(begin + block, last)};
+  }
+};
+
 /// Memory in which reductions keep the sums of their blocks; sized once for the longest field.
 template <class B>
 class BlockSums {
  public:
-  static constexpr int block = 512;  ///< items added up by one team, whatever the number of threads
+  static constexpr int block = ItemBlocks::block;
   static constexpr int widest = 16;
   using View = Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>;
   BlockSums() = default;
@@ -52,34 +96,36 @@ struct Nothing {
   KOKKOS_INLINE_FUNCTION void operator()() const {}
 };
 
-/// Computes the sums of blocks: blocks(b, k) = the sum of term(i)[k] over the items i of block b. A
-/// thread of a CPU takes a block at a time, a team of a GPU one block.
+/// Computes the terms of all items, and the sums of owned blocks: blocks(b, k) = the sum of
+/// term(i)[k] over the items i of block b. A thread of a CPU takes a block at a time, a team of a
+/// GPU one block.
 template <class B, int N, class Term, class Tally, class Then>
 struct SumOfBlock {
   using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
-  int n, block;
+  ItemBlocks items;
   Term term;
   typename BlockSums<B>::View blocks;
-  bool last;  ///< true where this sum is the result, and `then` follows
+  bool last;  ///< true where there is one block: its sum is the result, and `then` follows
   Then then;
 
-  KOKKOS_INLINE_FUNCTION int begin(int b) const { return b * block; }
-  KOKKOS_INLINE_FUNCTION int end(int b) const { return Kokkos::min(begin(b) + block, n); }
   KOKKOS_INLINE_FUNCTION void keep(int b, const Tally& total) const {
+    if (b >= items.owned()) return;
     for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
     if (last) then();
   }
   KOKKOS_INLINE_FUNCTION void operator()(int b) const {
+    const auto range = items.at(b);
     Tally total;
-    for (int i = begin(b); i < end(b); ++i) total += term(i);
+    for (int i = range.begin; i < range.end; ++i) total += term(i);
     keep(b, total);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int b = league_rank(team);
+    const auto range = items.at(b);
     Tally total;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, begin(b), end(b)), [&](int i, Tally& sum) { sum += term(i); },
-        Kokkos::Sum<Tally, typename B::Memory>(total));
+        Kokkos::TeamThreadRange(team, range.begin, range.end),
+        [&](int i, Tally& sum) { sum += term(i); }, Kokkos::Sum<Tally, typename B::Memory>(total));
     Kokkos::single(Kokkos::PerTeam(team), [&]() { keep(b, total); });
   }
 };
@@ -214,10 +260,11 @@ template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
-/// Computes result(k) = sum over i < n of term(i)[k]. The sums of blocks depend on their items
-/// alone; their total is exact but for one rounding, so that it does not depend on the order of the
-/// blocks. term: Tally operator()(int) const. Work that needs the result alone may follow without a
-/// launch of its own. then: void operator()() const.
+/// Computes result(k) = sum over owned items i of term(i)[k]. Terms of the other items are computed
+/// too, for what they write. The sums of blocks depend on their items alone; their total is exact
+/// but for one rounding, so that it does not depend on the order of the blocks. term: Tally
+/// operator()(int) const. Work that needs the result alone may follow without a launch of its own.
+/// then: void operator()() const.
 ///
 ///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     in each block in order
 ///                  |                      |                  |
@@ -225,15 +272,15 @@ void sum_blocks(const typename B::Exec& exec, const char* label, int count, int 
 ///                  \_______________________|__________________/
 ///   result                       their sum, then `then`
 template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
-void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term,
+void reduce(const typename B::Exec& exec, const char* label, const Items& items, const Term& term,
             const BlockSums<B>& blocks, const Doubles<B>& result, const Then& then = {}) {
   static_assert(N <= BlockSums<B>::widest);
-  constexpr int block = BlockSums<B>::block;
-  const int count = (n + block - 1) / block;
-  const bool alone = count == 1;  // the block's sum is the result
+  const ItemBlocks all{items};
+  const int count = all.owned();
+  const bool alone = count == 1 && all.count() == 1;  // the block's sum is the result
   const typename BlockSums<B>::View whole(result.data(), 1), &parts = alone ? whole : blocks.view();
-  launch_blocks<B>(exec, label, count,
-                   SumOfBlock<B, N, Term, Tally, Then>{n, block, term, parts, alone, then});
+  launch_blocks<B>(exec, label, all.count(),
+                   SumOfBlock<B, N, Term, Tally, Then>{all, term, parts, alone, then});
   if (alone) return;
   if constexpr (std::is_same_v<Then, Nothing>)
     sum_blocks<B>(exec, label, count, N, Tally::maxima, parts, result);

@@ -179,6 +179,36 @@ TYPED_TEST(Vocabulary, AddsBlocksExactly) {
   expect_exact(with_infinity);
 }
 
+/// Waves, of which it is noted that they were asked for.
+template <class B>
+struct Visited {
+  Doubles<B> visits;
+  int first = 0;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
+    visits(i) += 1;
+    return {{Kokkos::sin(0.3 * (i - first))}};
+  }
+};
+
+// Each term is computed once; the sum over owned items is that of these items alone, bit for bit.
+TYPED_TEST(Vocabulary, SumsOverOwnedItems) {
+  using B = TypeParam;
+  const typename B::Exec exec;
+  const BlockSums<B> blocks(n);
+  const auto result = zeros<Doubles<B>>("test.result", 1);
+  for (const auto [first, last] : {std::pair(0, n), std::pair(0, 600), std::pair(100, 612),
+                                   std::pair(700, n), std::pair(601, 1250), std::pair(400, 400)}) {
+    const auto visits = zeros<Doubles<B>>("test.visits", n);
+    reduce<B, 1>(exec, "test", Items(n, first, last), Visited<B>{visits, first}, blocks, result);
+    const double own = host_values(exec, result)[0];
+    for (const double count : host_values(exec, visits)) EXPECT_EQ(count, 1) << first;
+    EXPECT_EQ(own == 0, first == last);
+    if (first == last) continue;
+    reduce<B, 1>(exec, "test", last - first, Visited<B>{visits}, blocks, result);
+    EXPECT_EQ(own, host_values(exec, result)[0]) << first;
+  }
+}
+
 TEST(SymmetricBlock, InverseAndProduct) {
   const SymMat3<double> A{{4, 5, 6, 1, -2, 0.5}};
   SymMat3<double> inverse;
