@@ -87,11 +87,7 @@ struct FillFromHash {
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      unsigned h = static_cast<unsigned>(3 * a + k) * 2654435769u + 12345u;
-      h = (h ^ (h >> 15)) * 2246822519u;
-      h = (h ^ (h >> 13)) * 3266489917u;
-      const double value =
-          inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
+      const double value = inverse_mass(a) > 0 ? hashed(a, k) : 0.0;
       x(a, k) = static_cast<typename B::Real>(value);
       sum += value * value;
     }
