@@ -85,6 +85,11 @@ inline constexpr bool is_built<float> = false;
 template <class B>
 inline constexpr int slice_height = B::for_cpu ? B::lanes : 32;
 
+/// Number of vertices of a block. Rows of a block's vertices are sorted among themselves, and block
+/// sums do not reach over its ends.
+template <class B>
+inline constexpr int vertex_block = B::for_cpu ? 512 : 1024;
+
 /// Returns the number of threads of a team. It is one on a CPU, where teams run side by side, and
 /// `on_device` on a GPU.
 template <class B>

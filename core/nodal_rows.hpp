@@ -20,7 +20,8 @@ namespace plica {
 ///
 /// Rows are stored in slices of `height` side by side (sliced ELLPACK, Monakov, Lokhmotov &
 /// Avetisyan 2010). Each row has a lane of a register, or a thread. A slice has the rows of one
-/// region only. Rows that fill it up have volume 0 and point to themselves.
+/// region and of one block of vertices, see vertex_block. Rows that fill it up have volume 0 and
+/// point to themselves. The entries of a row ascend by their vertices.
 ///
 /// * slice q: entries [first(q), first(q+1)) of neighbour, gradient (C_ab, row a), coupling (w_ab),
 ///   smoothing (s_ab);

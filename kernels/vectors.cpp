@@ -8,33 +8,17 @@ namespace {
 template <class B>
 struct SumBlocks {
   using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
-  static constexpr int widest = BlockSums<B>::widest;
-  int count, n, maxima;
-  typename BlockSums<B>::View blocks;
+  TotalOfBlocks<B> blocks;
+  int sums;  // number of results that are sums; those after them are maxima
   Doubles<B> result;
 
   KOKKOS_INLINE_FUNCTION void operator()(int k) const {
-    double total = 0;
-    for (int b = 0; b < count; ++b) add(k, blocks(b, k), total);
-    result(k) = total;
-  }
-  KOKKOS_INLINE_FUNCTION void add(int k, double value, double& total) const {
-    total = k < n - maxima ? total + value : (total < value ? value : total);
+    result(k) = k < sums ? blocks.sum(k) : blocks.most(k);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int k = league_rank(team);
-    double total = 0;
-    if (k < n - maxima)
-      Kokkos::parallel_reduce(
-          Kokkos::TeamThreadRange(team, count), [&](int b, double& sum) { sum += blocks(b, k); },
-          Kokkos::Sum<double, typename B::Memory>(total));
-    else
-      Kokkos::parallel_reduce(
-          Kokkos::TeamThreadRange(team, count),
-          [&](int b, double& most) { add(k, blocks(b, k), most); },
-          Kokkos::Max<double, typename B::Memory>(total));
-    Kokkos::single(Kokkos::PerTeam(team),
-                   [&]() { result(k) = k < n - maxima ? total : Kokkos::max(total, 0.0); });
+    const double total = k < sums ? blocks.sum(team, k) : blocks.most(team, k);
+    Kokkos::single(Kokkos::PerTeam(team), [&]() { result(k) = total; });
   }
 };
 
@@ -103,11 +87,7 @@ struct FillFromHash {
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      unsigned h = static_cast<unsigned>(3 * a + k) * 2654435769u + 12345u;
-      h = (h ^ (h >> 15)) * 2246822519u;
-      h = (h ^ (h >> 13)) * 3266489917u;
-      const double value =
-          inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
+      const double value = inverse_mass(a) > 0 ? hashed(a, k) : 0.0;
       x(a, k) = static_cast<typename B::Real>(value);
       sum += value * value;
     }
@@ -131,7 +111,7 @@ int length_of(const Vectors<B>& x) {
 template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result) {
-  launch_blocks<B>(exec, label, n, SumBlocks<B>{count, n, maxima, blocks, result});
+  launch_blocks<B>(exec, label, n, SumBlocks<B>{{count, blocks}, n - maxima, result});
 }
 
 namespace vectors {

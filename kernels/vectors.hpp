@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstdint>
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/core/pack.hpp>
@@ -256,8 +257,16 @@ void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, c
 template <class B>
 void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x,
                const BlockSums<B>& blocks, const Doubles<B>& result);
+/// Returns a number in [-1, 1) that looks random: a hash of component k of vertex a, from its 53
+/// highest bits (SplitMix64: Steele, Lea & Flood 2014).
+KOKKOS_INLINE_FUNCTION double hashed(std::int64_t a, int k) {
+  std::uint64_t h = static_cast<std::uint64_t>(3 * a + k + 1) * 0x9e3779b97f4a7c15;
+  h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
+  h = (h ^ h >> 27) * 0x94d049bb133111eb;
+  return static_cast<double>((h ^ h >> 31) >> 11) * 0x1p-52 - 1;
+}
 /// Fills x with a start vector that has a part in every mode, and computes result(0) = x . x. Its
-/// numbers are a hash of the index, in [-1, 1); they are 0 where the inverse mass is 0.
+/// numbers are hashed() ones; they are 0 where the inverse mass is 0.
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                     const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result);

@@ -16,17 +16,20 @@ using Tets = std::vector<std::array<int, 4>>;
 /// A face as one of its two tetrahedra has it.
 struct TetFace {
   std::array<int, 3> vertices;  // ascending
-  int number;                   // 4 * tetrahedron + corner across
+  std::int64_t number;          // 4 * tetrahedron + corner across
 
   bool operator<(const TetFace& o) const {
     return std::tie(vertices, number) < std::tie(o.vertices, o.number);
   }
 };
 
-TetFace face_of(const Tets& tets, int tet, int across) {
-  TetFace face{{}, 4 * tet + across};
+/// Returns a face by its number: 4 * tetrahedron + corner across.
+TetFace face_of(const Tets& tets, std::int64_t number) {
+  TetFace face{{}, number};
+  const auto tet = static_cast<std::size_t>(number / 4);
+  const int across = static_cast<int>(number % 4);
   for (int k = 0, i = 0; k < 4; ++k)
-    if (k != across) face.vertices[index_of(i++)] = tets[index_of(tet)][index_of(k)];
+    if (k != across) face.vertices[index_of(i++)] = tets[tet][index_of(k)];
   std::sort(face.vertices.begin(), face.vertices.end());
   return face;
 }
@@ -109,8 +112,8 @@ void follow_triangles(TetMesh& mesh, const Tets& before, const std::vector<int>&
   // faces of these tetrahedra: as they were, and as they are
   std::vector<std::pair<std::array<int, 3>, std::array<int, 3>>> faces;
   for (const int tet : around)
-    for (int k = 0; k < 4; ++k)
-      faces.emplace_back(face_of(before, tet, k).vertices, face_of(mesh.tets, tet, k).vertices);
+    for (std::int64_t face = std::int64_t{4} * tet, end = face + 4; face < end; ++face)
+      faces.emplace_back(face_of(before, face).vertices, face_of(mesh.tets, face).vertices);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   for (auto& [name, set] : mesh.triangle_sets) {
@@ -153,15 +156,16 @@ Faces faces_across(const Tets& tets, const std::vector<Point>& positions, const 
     const Point size = box.max - box.min;
     box.min -= size, box.max += size;
     if (!are_apart(box, around))
-      for (int k = 0; k < 4; ++k) near.push_back(face_of(tets, static_cast<int>(e), k));
+      for (std::size_t k = 0; k < 4; ++k)
+        near.push_back(face_of(tets, static_cast<std::int64_t>(4 * e + k)));
   }
-  const auto centroid = [&](int face) {
+  const auto centroid = [&](std::int64_t face) {
     Point sum = Point::Zero();
-    for (const int v : tets[index_of(face / 4)]) sum += positions[index_of(v)];
+    for (const int v : tets[static_cast<std::size_t>(face / 4)]) sum += positions[index_of(v)];
     return Point(sum / 4);
   };
   Faces opened;
-  for_inner_faces(std::move(near), [&](int a, int b) {
+  for_inner_faces(std::move(near), [&](std::int64_t a, std::int64_t b) {
     const Point p = centroid(a), q = centroid(b);
     const Box line{p.cwiseMin(q), p.cwiseMax(q)};
     for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -177,35 +181,35 @@ Faces faces_across(const Tets& tets, const std::vector<Point>& positions, const 
 CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
   CutMesh cut{mesh, {}};
   std::vector<char> touched(mesh.vertices.size(), 0);
-  for (const int face : open)
-    for (const int v : face_of(mesh.tets, face / 4, face % 4).vertices) touched[index_of(v)] = 1;
+  for (const std::int64_t face : open)
+    for (const int v : face_of(mesh.tets, face).vertices) touched[index_of(v)] = 1;
   // corners of tetrahedra at these vertices, 4 tet + corner, and the faces there
-  std::vector<std::pair<int, int>> corners;  // vertex, corner
+  std::vector<std::pair<int, std::size_t>> corners;  // vertex, corner
   std::vector<int> place(4 * mesh.tets.size(), -1);
   std::vector<int> around;
   std::vector<TetFace> faces;
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const int tet = static_cast<int>(e);
     bool any = false;
-    for (int k = 0; k < 4; ++k)
-      if (const int v = mesh.tets[e][index_of(k)]; touched[index_of(v)] != 0)
-        corners.emplace_back(v, 4 * tet + k), any = true;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const int v = mesh.tets[e][k]; touched[index_of(v)] != 0)
+        corners.emplace_back(v, 4 * e + k), any = true;
     if (!any) continue;
-    around.push_back(tet);
-    for (int k = 0; k < 4; ++k) faces.push_back(face_of(mesh.tets, tet, k));
+    around.push_back(static_cast<int>(e));
+    for (std::size_t k = 0; k < 4; ++k)
+      faces.push_back(face_of(mesh.tets, static_cast<std::int64_t>(4 * e + k)));
   }
   std::sort(corners.begin(), corners.end());
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    place[index_of(corners[i].second)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < corners.size(); ++i) place[corners[i].second] = static_cast<int>(i);
   Groups groups(corners.size());
-  const auto place_of = [&](int face, int v) {
-    const auto& tet = mesh.tets[index_of(face / 4)];
+  const auto place_of = [&](std::int64_t face, int v) {
+    const auto e = static_cast<std::size_t>(face / 4);
+    const auto& tet = mesh.tets[e];
     const auto corner = std::find(tet.begin(), tet.end(), v) - tet.begin();
-    return place[index_of(face / 4 * 4 + static_cast<int>(corner))];
+    return place[4 * e + static_cast<std::size_t>(corner)];
   };
-  for_inner_faces(std::move(faces), [&](int a, int b) {
+  for_inner_faces(std::move(faces), [&](std::int64_t a, std::int64_t b) {
     if (std::binary_search(open.begin(), open.end(), a)) return;
-    for (const int v : face_of(mesh.tets, a / 4, a % 4).vertices)
+    for (const int v : face_of(mesh.tets, a).vertices)
       if (touched[index_of(v)] != 0) groups.join(place_of(a, v), place_of(b, v));
   });
   std::vector<int> number(corners.size());  // vertex of each group, at its lowest corner
@@ -220,7 +224,7 @@ CutMesh open_faces(const TetMesh& mesh, const Faces& open) {
     } else if (first) {
       number[i] = v;
     }
-    cut.mesh.tets[index_of(corner / 4)][index_of(corner % 4)] = number[index_of(group)];
+    cut.mesh.tets[corner / 4][corner % 4] = number[index_of(group)];
   }
   follow_sets(cut.mesh, static_cast<int>(mesh.vertices.size()), cut.twin);
   follow_triangles(cut.mesh, mesh.tets, around);
@@ -275,17 +279,16 @@ void follow_cut(const TetMesh& mesh, TriangleSurface& surface, std::vector<int>&
 }
 
 Embedding embed_at_vertices(const TetMesh& mesh, const std::vector<int>& vertex) {
-  std::vector<int> corner(mesh.vertices.size(), -1);
+  std::vector<std::size_t> corner(mesh.vertices.size());  // 4 * tetrahedron + corner
   for (std::size_t e = mesh.tets.size(); e-- > 0;)
-    for (std::size_t k = 0; k < 4; ++k)
-      corner[index_of(mesh.tets[e][k])] = static_cast<int>(4 * e + k);
+    for (std::size_t k = 0; k < 4; ++k) corner[index_of(mesh.tets[e][k])] = 4 * e + k;
   Embedding embedding;
   embedding.outside.resize(vertex.size(), 0);
   for (const int v : vertex) {
-    const int at = corner[index_of(v)];
-    embedding.vertices.push_back(mesh.tets[index_of(at / 4)]);
+    const std::size_t at = corner[index_of(v)];
+    embedding.vertices.push_back(mesh.tets[at / 4]);
     embedding.weights.push_back({});
-    embedding.weights.back()[index_of(at % 4)] = 1;
+    embedding.weights.back()[at % 4] = 1;
   }
   return embedding;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <vector>
@@ -13,7 +14,7 @@ namespace plica {
 
 /// Numbers of faces inside a mesh, ascending: 4 times the lower of the face's two tetrahedra, plus
 /// the corner of that tetrahedron that is across.
-using Faces = std::vector<int>;
+using Faces = std::vector<std::int64_t>;
 
 /// Triangles that a blade sweeps, by their corners [m].
 using Blade = std::vector<std::array<Point, 3>>;

@@ -2,6 +2,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <numeric>
 #include <plica/drivers/elastic/build_nodal_rows.hpp>
 #include <plica/drivers/elastic/vertex_shares.hpp>
 #include <span>
@@ -35,7 +37,7 @@ class Domains {
   Domains(const TetMesh& mesh, const std::vector<char>& given)
       : mesh_(mesh), corners_(4 * mesh.tets.size()) {
     find_corners(given);
-    const Grouping corners(corners_, all.size());
+    const GroupingOf<std::int64_t> corners(corners_, all.size());
     for_row_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t d = begin; d < end; ++d) measure(all[d], corners.of(d));
     });
@@ -79,9 +81,14 @@ class Domains {
     for (const int v : vertices) domain_of[index_of(v)] = -1;
   }
 
-  void measure(Domain& domain, std::span<const int> corners) const {
-    for (const int corner : corners) add_corner(domain, index_of(corner) / 4, index_of(corner) % 4);
-    std::ranges::sort(domain.pairs, {}, &Pair::neighbour);
+  void measure(Domain& domain, std::span<const std::int64_t> corners) const {
+    for (const std::int64_t corner : corners) {
+      const auto place = static_cast<std::size_t>(corner);
+      add_corner(domain, place / 4, place % 4);
+    }
+    std::ranges::sort(domain.pairs, {}, [&](const Pair& p) {
+      return std::pair(all[index_of(p.neighbour)].vertex, p.neighbour);
+    });
     for (Pair& p : domain.pairs)
       if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // edge inside the region
   }
@@ -114,27 +121,34 @@ class Domains {
   }
 };
 
-/// Returns the domain of each row: by region, then within windows of rows.
-/// In a window domains with more surface pairs come first, then those with more pairs.
-std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
-  std::vector<int> order;  // -1: empty row that fills up a slice
-  const auto window = static_cast<std::size_t>(32 * height);
-  for (std::size_t begin = 0; begin < domains.size();) {
-    std::size_t end = begin;
-    while (end < domains.size() && end < begin + window &&
-           domains[end].region == domains[begin].region)
-      ++end;
-    const std::size_t first = order.size();
-    for (std::size_t d = begin; d < end; ++d) order.push_back(static_cast<int>(d));
-    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
-                     [&](int a, int b) {
-                       const Domain &x = domains[index_of(a)], &y = domains[index_of(b)];
-                       return std::pair(x.surface_pairs(), x.pairs.size()) >
-                              std::pair(y.surface_pairs(), y.pairs.size());
-                     });
-    if (end == domains.size() || domains[end].region != domains[begin].region)
-      while (order.size() % index_of(height) != 0) order.push_back(-1);
-    begin = end;
+/// Returns the domain of each row. Rows are sorted by block of vertices, in a block by region, and
+/// in each region of a block as in `domains`, but for windows of rows: in a window domains with
+/// more surface pairs come first, then those with more pairs.
+/// @param block  number of vertices of a block
+std::vector<int> row_order(const std::vector<Domain>& domains, int block, int height) {
+  const auto place = [&](int d) {
+    const Domain& domain = domains[index_of(d)];
+    return std::pair(domain.vertex / block, domain.region);
+  };
+  const auto pairs = [&](int d) {
+    const Domain& domain = domains[index_of(d)];
+    return std::pair(domain.surface_pairs(), domain.pairs.size());
+  };
+  std::vector<int> sorted(domains.size()), order;
+  std::iota(sorted.begin(), sorted.end(), 0);
+  std::ranges::stable_sort(sorted, {}, place);
+  const auto window = static_cast<std::ptrdiff_t>(32 * height);
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    const auto end =
+        std::find_if(begin, sorted.end(), [&](int d) { return place(d) != place(*begin); });
+    while (begin != end) {
+      const auto next = begin + std::min(window, end - begin);
+      std::stable_sort(begin, next, [&](int a, int b) { return pairs(a) > pairs(b); });
+      order.insert(order.end(), begin, next);
+      begin = next;
+    }
+    // -1: empty row that fills up a slice
+    while (order.size() % index_of(height) != 0) order.push_back(-1);
   }
   return order;
 }
@@ -148,7 +162,9 @@ class SlicedRows {
 
  public:
   explicit SlicedRows(const std::vector<Domain>& domains)
-      : domains_(domains), order_(row_order(domains, Rows::height)), slot_of_(domains.size()) {
+      : domains_(domains),
+        order_(row_order(domains, vertex_block<B>, Rows::height)),
+        slot_of_(domains.size()) {
     for (std::size_t s = 0; s < order_.size(); ++s)
       if (order_[s] >= 0) slot_of_[index_of(order_[s])] = static_cast<int>(s);
     for (std::size_t begin = 0; begin < order_.size(); begin += H) {
@@ -215,20 +231,16 @@ class SlicedRows {
     return order_[slot] >= 0 ? domains_[index_of(order_[slot])] : none;
   }
 
-  /// Adds the pairs of a slot's domain, in the order of the neighbours' slots.
+  /// Adds the pairs of a slot's domain, in the order of the neighbours' vertices.
   /// A row with fewer pairs than others of its slice is filled up with zeros for the row itself.
   void add_pairs(std::size_t slot, const Columns& all, const Columns& surface) const {
-    std::vector<const Pair*> pairs;
-    for (const Pair& pair : domain(slot).pairs) pairs.push_back(&pair);
-    std::ranges::sort(pairs, {},
-                      [&](const Pair* pair) { return slot_of_[index_of(pair->neighbour)]; });
     const std::size_t slice = slot / H, row = slot % H;
     auto column = index_of(first_[slice]), surface_column = index_of(first_surface_[slice]);
-    for (const Pair* pair : pairs) {
-      const int other = slot_of_[index_of(pair->neighbour)];
-      all.put(column++, row, other, pair->gradient, *pair);
-      if (pair->surface != Point::Zero())
-        surface.put(surface_column++, row, other, pair->surface, *pair);
+    for (const Pair& pair : domain(slot).pairs) {
+      const int other = slot_of_[index_of(pair.neighbour)];
+      all.put(column++, row, other, pair.gradient, pair);
+      if (pair.surface != Point::Zero())
+        surface.put(surface_column++, row, other, pair.surface, pair);
     }
     const auto self = static_cast<int>(slot);
     while (column < index_of(first_[slice + 1])) all.put(column++, row, self, Point::Zero(), {});

@@ -15,8 +15,8 @@ struct NodalConstants {
   std::vector<double> damping;  ///< stiffness-proportional damping [s]; empty: none
 };
 
-/// Returns the rows of a mesh at rest, one for each domain, by region and then by vertex.
-/// Within short windows of this order rows of similar length are put together.
+/// Returns the rows of a mesh at rest, one for each domain, by block of vertices, region and
+/// vertex. Within short windows of this order rows of similar length are put together.
 /// @param given  per vertex: its motion is given; empty: no vertex's is
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants,

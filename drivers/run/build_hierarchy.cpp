@@ -101,6 +101,7 @@ class HierarchyBuilder {
       elasticity_.push_back(
           make_elasticity<B>(problem_.body.material.model, constants_[i].element));
     if (has_contact(problem_)) phase("preparing contact", [&] { add_contact(); });
+    locators_.clear();
     for (std::size_t i = 0; i < levels_; ++i)
       phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
     phase("planning the steps", [&] { plan(); });
@@ -134,7 +135,7 @@ class HierarchyBuilder {
   std::optional<LevelPart> part_;
   LevelConstants part_constants_;
   std::vector<int> points_;
-  std::vector<std::unique_ptr<BodyLocator>> locators_;
+  std::vector<std::unique_ptr<BodyLocator>> locators_;  // per level, see locator()
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
   std::vector<int> massless_ = {0};  // [i]: number of level i's vertices that inherit no mass
@@ -168,10 +169,16 @@ class HierarchyBuilder {
       for (Point& p : mesh.vertices) p += shift;
     }
     place_supports(shift);
-    for (const TetMesh& mesh : built_.meshes)
-      locators_.push_back(std::make_unique<BodyLocator>(mesh, body.parts));
+    locators_.resize(meshes_);
     if (body.surface) surface_ = *body.surface;
     for (Point& p : surface_.vertices) p += shift;
+  }
+
+  /// Returns the search for points in a level's mesh, which is made when it is first asked for.
+  const BodyLocator& locator(std::size_t i) {
+    if (!locators_[i])
+      locators_[i] = std::make_unique<BodyLocator>(built_.meshes[i], problem_.body.parts);
+    return *locators_[i];
   }
 
   /// Adds the weight of a level as a load that grows, which gravity does not.
@@ -348,14 +355,14 @@ class HierarchyBuilder {
 
   /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
   /// they turn with it.
-  Embedding embed_surface(std::size_t i) const {
+  Embedding embed_surface(std::size_t i) {
     if (i == 0) {
       std::vector<int> at = problem_.body.surface_vertex;
       if (at.empty()) at = vertices_at(surface_.vertices, built_.meshes.front());
       if (!at.empty()) return embed_at_vertices(built_.meshes.front(), at);
     }
     constexpr double far = 10;  // edges; a coarse mesh may lie a little inside the surface
-    Embedding embedding = embed_free(built_.meshes[i], problem_.body.parts, *locators_[i],
+    Embedding embedding = embed_free(built_.meshes[i], problem_.body.parts, locator(i),
                                      surface_.vertices, parts_of_points(problem_.body.parts));
     if (embedding.largest_distance_over_edge > far)
       throw InputError("body.surface: " + std::to_string(embedding.misses) + " of its " +
@@ -372,8 +379,7 @@ class HierarchyBuilder {
     for (std::size_t i = 1; i < meshes_; ++i) {
       const auto in = [&](std::size_t points, std::size_t mesh) {
         const TetMesh& of = built_.meshes[points];
-        return locators_[mesh]->embed(of.vertices, parts_of_vertices(of, problem_.body.parts),
-                                      rule);
+        return locator(mesh).embed(of.vertices, parts_of_vertices(of, problem_.body.parts), rule);
       };
       down_.push_back(in(i, i - 1));
       up_.push_back(in(i - 1, i));
@@ -385,14 +391,14 @@ class HierarchyBuilder {
     }
   }
 
-  void expect_overlap(std::size_t i) const {
+  void expect_overlap(std::size_t i) {
     const auto &coarse = built_.meshes[i].vertices, &fine = built_.meshes[i - 1].vertices;
     if (down_[i].misses < static_cast<int>(coarse.size()) ||
         up_[i].misses < static_cast<int>(fine.size()))
       return;
     double distance = std::numeric_limits<double>::infinity();
-    for (const Point& p : coarse) distance = std::min(distance, locators_[i - 1]->distance(p));
-    for (const Point& p : fine) distance = std::min(distance, locators_[i]->distance(p));
+    for (const Point& p : coarse) distance = std::min(distance, locator(i - 1).distance(p));
+    for (const Point& p : fine) distance = std::min(distance, locator(i).distance(p));
     throw InputError(text("body.levels: levels ", i - 1, " and ", i, " do not overlap, they are ",
                           number(distance, 4), " m apart; expected meshes of one body"));
   }
@@ -438,7 +444,7 @@ class HierarchyBuilder {
         .size = body_size(),
         .kept = part_ ? std::optional(points_) : std::nullopt};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
-      touching.parts.push_back({&p.body.parts[b].material, locators_[0]->mean_edge(b)});
+      touching.parts.push_back({&p.body.parts[b].material, locator(0).mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
     contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p));

@@ -21,8 +21,7 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
   inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
   set_gravity(gravity);
   const LevelData<B>& level = hierarchy[0];
-  blocks_ = BlockSums<B>(std::max(
-      {level.model.vertices, static_cast<int>(level.partial.extent(0)), level.surface.points}));
+  blocks_ = BlockSums<B>(std::max(level.model.vertices, level.surface.points));
 }
 
 template <class B>
@@ -59,8 +58,8 @@ Energies EnergyMeter<B>::all(double time) const {
   Energies e = motion(Point::Zero()).energies;
   if (level.viscosity) level.viscosity->look_at_once(exec);
   level.elasticity().energy(exec, level, level.state.u);
-  reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows,
-               FirstComponent<B>{level.partial}, blocks_, result_);
+  reduce<B, 1>(exec, "plica::elastic_energy", level.model.vertices,
+               EnergyOfShares<B>{level.model.shares, level.partial}, blocks_, result_);
   e.elastic = read()[0];
   if (level.contact()) e.contact = level.response().energy(exec, level, time);
   return e;

@@ -258,7 +258,7 @@ auto Simulation<B>::Impl::reopened(const std::vector<Faces>& saved) -> std::uniq
     throw InputError(
         "the saved state has other cuts than this simulation; expected a new simulation of the "
         "same problem");
-  const int faces = 4 * built.reports.front().tets;
+  const std::int64_t faces = std::int64_t{4} * built.reports.front().tets;
   for (const Faces& each : saved)
     if (!each.empty() &&
         (*std::ranges::min_element(each) < 0 || *std::ranges::max_element(each) >= faces))

@@ -307,7 +307,7 @@ std::vector<Faces> name_cuts(Archive<B>& archive, std::vector<Faces> opened) {
   opened.resize(archive.count(opened.size()));
   for (Faces& faces : opened) {
     faces.resize(archive.count(faces.size()));
-    archive.number(faces.data(), faces.size() * sizeof(int));
+    archive.number(faces.data(), faces.size() * sizeof(Faces::value_type));
   }
   return opened;
 }

@@ -20,16 +20,17 @@ auto from_column(Row& row, int column) {
 
 /// Tetrahedra of each vertex, ascending.
 struct TetsOfVertices {
-  std::vector<int> first, tet;
+  std::vector<std::size_t> first;  // [vertices + 1]
+  std::vector<int> tet;
 
   explicit TetsOfVertices(const TetMesh& mesh)
       : first(mesh.vertices.size() + 1, 0), tet(4 * mesh.tets.size()) {
     for (const auto& t : mesh.tets)
       for (const int a : t) ++first[index_of(a) + 1];
     for (std::size_t a = 0; a < mesh.vertices.size(); ++a) first[a + 1] += first[a];
-    std::vector<int> next(first.begin(), first.end() - 1);
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
     for (std::size_t e = 0; e < mesh.tets.size(); ++e)
-      for (const int a : mesh.tets[e]) tet[index_of(next[index_of(a)]++)] = static_cast<int>(e);
+      for (const int a : mesh.tets[e]) tet[next[index_of(a)]++] = static_cast<int>(e);
   }
 };
 
@@ -43,8 +44,8 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
     std::vector<int> columns;
     for (std::size_t a = first; a < last; ++a) {
       columns.assign(1, static_cast<int>(a));
-      for (int k = around.first[a]; k < around.first[a + 1]; ++k) {
-        const auto& tet = mesh.tets[index_of(around.tet[index_of(k)])];
+      for (std::size_t k = around.first[a]; k < around.first[a + 1]; ++k) {
+        const auto& tet = mesh.tets[index_of(around.tet[k])];
         columns.insert(columns.end(), tet.begin(), tet.end());
       }
       std::sort(columns.begin(), columns.end());
@@ -52,8 +53,8 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
       BlockRow& row = K[a];
       row.reserve(columns.size());
       for (const int b : columns) row.emplace_back(b, Eigen::Matrix3d::Zero());
-      for (int k = around.first[a]; k < around.first[a + 1]; ++k) {
-        const auto e = index_of(around.tet[index_of(k)]);
+      for (std::size_t k = around.first[a]; k < around.first[a + 1]; ++k) {
+        const auto e = index_of(around.tet[k]);
         const auto& tet = mesh.tets[e];
         const TetGradients of(mesh, e);
         const auto [lambda, mu] = lame[mesh.region.empty() ? 0 : index_of(mesh.region[e])];

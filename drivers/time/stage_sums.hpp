@@ -19,8 +19,7 @@ class StageSums {
     const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
     von_mises_ = Scalars<B>("plica::stage.von_mises", elements),
     volume_ = Scalars<B>("plica::stage.volume", elements);
-    blocks_ = BlockSums<B>(static_cast<int>(
-        std::max({level.partial.extent(0), level.f.extent(0), volume_.extent(0)})));
+    blocks_ = BlockSums<B>(std::max(level.model.vertices, elements));
     result_ = Doubles<B>("plica::stage.result", 7);
   }
   /// Returns whether there are arrays for the sums.
@@ -45,8 +44,8 @@ class StageSums {
   /// Returns the energy of elements at the level's state [J].
   double stored(const Level<B>& level) const {
     level.incremental_energy(level.state);
-    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
-                 FirstComponent<B>{level.partial}, blocks_, result_);
+    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.vertices,
+                 EnergyOfShares<B>{level.model.shares, level.partial}, blocks_, result_);
     return first(level);
   }
   /// Returns the least volume ratio of an element, 1 at most.

@@ -5,7 +5,7 @@
 namespace plica {
 
 /// Computes f_a = m_a g + sum of the shares in the vertex, in their order [N]. 24 s bytes per
-/// vertex written and, with about 2.4 copies, 10 + 7 s read (s = sizeof(Real)).
+/// vertex written and, with about 2.6 copies, 14 + 9 s read (s = sizeof(Real)).
 template <class B>
 struct GatherForces {
   using Real = typename B::Real;

@@ -18,11 +18,7 @@ template <class B>
 struct BlockLanczosStart {
   Vectors<B> r;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    unsigned seed = static_cast<unsigned>(a) * 2654435761U + 12345U;
-    for (int k = 0; k < 3; ++k) {
-      seed = seed * 1664525U + 1013904223U;
-      r(a, k) = static_cast<typename B::Real>(seed >> 8) / (1 << 23) - 1;
-    }
+    for (int k = 0; k < 3; ++k) r(a, k) = static_cast<typename B::Real>(hashed(a, k));
   }
 };
 

@@ -33,12 +33,20 @@ struct MotionEnergies {
   }
 };
 
-/// Component x of a field of the patches' vertices, for sums over it.
+/// Energy of a vertex: component x of its shares in a field of the element kernels, for sums over
+/// the vertices.
 template <class B>
-struct FirstComponent {
-  Vectors<B> field;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
-    return {{static_cast<double>(field(i, 0))}};
+struct EnergyOfShares {
+  VertexShares<B> shares;
+  Vectors<B> partial;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double sum = 0;
+    const bool weighted = shares.weight.extent(0) > 0;
+    for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
+      const auto energy = static_cast<double>(partial(shares.row(s), 0));
+      sum += weighted ? static_cast<double>(shares.weight(s)) * energy : energy;
+    }
+    return {{sum}};
   }
 };
 

@@ -6,6 +6,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/join_parts.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/app/scene/order_levels.hpp>
 #include <plica/drivers/app/scene/repair_level.hpp>
 #include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -187,15 +188,6 @@ std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector
   std::vector<int> ids;
   for (const int old : order) ids.push_back(static_cast<int>(tags[static_cast<std::size_t>(old)]));
   return ids;
-}
-
-// Returns an order in which neighbours are close in memory. Keeps the file's order if that is as
-// good, such as that of a grid
-Reordering better_order(const TetMesh& mesh) {
-  Reordering order = locality_order(mesh);
-  if (mean_vertex_span(reordered(mesh, order)) < mean_vertex_span(mesh)) return order;
-  std::ranges::sort(order.vertices), std::ranges::sort(order.tets);
-  return order;
 }
 
 // Reads a level's mesh, scales it, and merges duplicates and repairs it if asked. Then puts it in
@@ -447,6 +439,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
                                ": body.levels.0: " + size_text(body.levels.back(), false));
   }
   join_parts(scene, tree);
+  order_levels(scene);
   if (scene.surface) {
     const SourceLocation where = place_of(tree, "body.surface");
     body.surface =

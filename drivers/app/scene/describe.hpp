@@ -14,6 +14,7 @@ using namespace keys;
 std::vector<Choice> frame_formats();  ///< file formats of frames
 std::vector<Choice> frame_fields();  ///< arrays of frames that are written where they are asked for
 std::vector<Choice> precisions();    ///< float and double
+std::vector<Choice> mesh_orders();   ///< orders of vertices and tetrahedra in memory
 std::vector<Choice> second_orders();  ///< treatments of second-order tetrahedra
 
 /// Number of threads; the maximum is what Kokkos allows with OpenMP.
@@ -189,6 +190,7 @@ struct BodyKeys {
   std::vector<LevelRecipe>& levels;
   std::optional<LatticesRecipe>& lattices;
   double& jitter;
+  std::string& order;
   Body& body;
   std::optional<SurfaceRecipe>& surface;
 };
@@ -201,6 +203,8 @@ void describe(V& v, BodyKeys& o) {
   v("jitter", o.jitter, Quantity{plain, below_half},
     "vertices of every level are moved at random by up to this part of their shortest edge; its "
     "faces stay");
+  v("order", o.order, Name{"order", mesh_orders},
+    "of vertices and tetrahedra in memory; output has that of the input");
   describe(v, o.body);
   v("surface", o.surface, Group{},
     "embedded in every level: it touches the obstacles, and frames show it; left out: the boundary "
@@ -212,7 +216,7 @@ inline constexpr const char* body_integration_help =
 
 template <class V>
 void describe(V& v, BodyRecipe& o) {
-  BodyKeys keys{o.levels, o.lattices, o.jitter, o.body, o.surface};
+  BodyKeys keys{o.levels, o.lattices, o.jitter, o.order, o.body, o.surface};
   describe(v, keys);
   IntegrationOptions integration;  // not stored: shared_integration() reads it from the tree
   v("integration", integration, Group{}, body_integration_help);
@@ -319,7 +323,7 @@ void describe(V& v, Scene& o) {
   v("name", o.name, Text{}, "title; left out: the file's name");
   v.required("duration", o.duration, Quantity{duration, positive}, "simulated time");
   describe(v, o.problem);
-  BodyKeys body{o.levels, o.lattices, o.jitter, o.problem.body, o.surface};
+  BodyKeys body{o.levels, o.lattices, o.jitter, o.order, o.problem.body, o.surface};
   v.one_of();
   v.alternative("body", body, Group{}, "the deformable body");
   v.alternative("bodies", o.bodies, BodyMap{},

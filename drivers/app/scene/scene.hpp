@@ -122,8 +122,8 @@ struct ObstacleRecipe {
   std::optional<ToolRecipe> tool;  ///< source of a shape from a file; none: another shape
 };
 
-/// Mapping between a level's mesh and its input. The mesh of a file is put in an order that is
-/// faster to simulate; output for users has the order and the numbers of the file.
+/// Mapping between a level's mesh and its input. A mesh may be put in an order that is faster to
+/// simulate, see mesh_orders(); output for users has the order and the numbers of the file.
 struct Numbering {
   /// number in the mesh of each vertex and tetrahedron of the input; empty: equal
   Reordering input;
@@ -171,6 +171,7 @@ struct BodyRecipe {
   std::vector<LevelRecipe> levels;
   std::optional<LatticesRecipe> lattices;
   double jitter = 0;
+  std::string order = "auto";
   Body body;
   std::optional<SurfaceRecipe> surface;
 };
@@ -213,6 +214,7 @@ struct Scene {
   std::optional<LatticesRecipe> lattices;  ///< source of the levels, if they are lattices
   std::vector<LevelRecipe> levels;         ///< source of each level, finest first
   double jitter = 0;                       ///< random displacement of vertices, see jittered()
+  std::string order = "auto";              ///< order of the meshes, one of mesh_orders()
   std::optional<SurfaceRecipe> surface;    ///< source of the embedded surface
   /// several bodies by name, instead of `body`; they are joined to one body of several parts
   std::map<std::string, BodyRecipe> bodies;

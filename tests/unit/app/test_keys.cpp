@@ -188,7 +188,7 @@ TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
         "1 ms}",
         "output={volume: all, fields: [stress, pressure]}", "output.fields=contact_pressure",
         "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]",
-        "study.truth=true", "study.truth={refinements: 1}", "body.jitter=0.2",
+        "study.truth=true", "study.truth={refinements: 1}", "body.jitter=0.2", "body.order=hilbert",
         "contact.obstacles=[]"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);
@@ -221,6 +221,7 @@ TEST_F(SchemaByPython, RefusesBadScenes) {
                           "study.truth={refinements: 0}",
                           "study.truth=1",
                           "body.jitter=0.5",
+                          "body.order=file",
                           "body.levels.0={tube: {radius: 1, wall: 1, length: 1}}"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);

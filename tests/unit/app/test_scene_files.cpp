@@ -57,6 +57,36 @@ TEST(SceneFiles, KeepTheNumbersOfTheFile) {
   }
 }
 
+// body.order: hilbert depends on the mesh alone; numbers for users stay those of the input.
+TEST(SceneFiles, AreOrderedAlongACurveOnRequest) {
+  const auto expect_along_curve = [](const TetMesh& mesh) {
+    const Reordering order = locality_order(mesh);
+    EXPECT_TRUE(std::ranges::is_sorted(order.tets));
+    EXPECT_TRUE(std::ranges::is_sorted(order.vertices));
+  };
+  for (const char* name : {"blocks_41.msh", "../liver_coarse.msh"}) {
+    MeshReport report;
+    const TetMesh input = read_mesh(samples / name, &report);
+    const Scene scene = scene_of(of_files(sample(name)), {"body.order=hilbert"});
+    const Numbering& numbering = scene.numbering[0];
+    expect_along_curve(scene.problem.body.levels[0]);
+    EXPECT_EQ(in_input_order(scene.problem.body.levels[0], numbering).tets, input.tets);
+    for (std::size_t t = 0; t < input.tets.size(); ++t)
+      EXPECT_EQ(numbering.tet_ids[static_cast<std::size_t>(numbering.input.tets[t])],
+                static_cast<int>(report.tet_tags[t]));
+  }
+  const Scene made = scene_of(sound_scene, {"body.order=hilbert"});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TetMesh& mesh = made.problem.body.levels[i];
+    expect_along_curve(mesh);
+    const TetMesh given = scene_of(sound_scene).problem.body.levels[i],
+                  back = in_input_order(mesh, made.numbering[i]);
+    EXPECT_NE(mesh.tets, given.tets);
+    EXPECT_EQ(back.tets, given.tets);
+    EXPECT_EQ(back.vertices, given.vertices);
+  }
+}
+
 TEST(SceneFiles, FramesAreInTheOrderOfTheFile) {
   const TemporaryFolder folder;
   const TetMesh input = read_mesh(samples / "../liver_coarse.msh");

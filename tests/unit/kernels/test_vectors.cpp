@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <plica/core/time_functions.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/transfer/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
+#include <random>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -117,6 +121,92 @@ TYPED_TEST(Vocabulary, Sums) {
   EXPECT_NEAR(host_values(exec, result)[0], want, 1e-4 * std::abs(want));
   sum_first<B>(exec, "test", y, blocks, result);  // below 0
   EXPECT_NEAR(host_values(exec, result)[0], first, 1e-4 * std::abs(first));
+}
+
+/// Sum and maximum of one number per block of a sum; its other items have none.
+template <class B>
+struct OnePerBlock {
+  Doubles<B> number;
+  KOKKOS_INLINE_FUNCTION Sums<2, 1> operator()(int i) const {
+    if (i % BlockSums<B>::block != 7) return {};
+    const double x = number(i / BlockSums<B>::block);
+    return {{x, x > 0 ? x : 0}};
+  }
+};
+template <class B>
+struct Doubled {
+  Doubles<B> result;
+  KOKKOS_INLINE_FUNCTION void operator()() const { result(0) *= 2; }
+};
+
+// The blocks' sums are added without loss: by one thread or by a team, whatever they are.
+TYPED_TEST(Vocabulary, AddsBlocksExactly) {
+  using B = TypeParam;
+  const typename B::Exec exec;
+  constexpr int count = 40, items = count * BlockSums<B>::block;
+  const BlockSums<B> blocks(items);
+  const auto result = zeros<Doubles<B>>("test.result", 2);
+  std::mt19937_64 random(6);
+  const auto expect_exact = [&](const std::vector<double>& numbers) {
+    ExactSum all;
+    for (const double x : numbers) all.add(x);
+    const double want = all.take();
+    const OnePerBlock<B> term{to_device<Doubles<B>>("test.numbers", numbers)};
+    reduce<B, 2, OnePerBlock<B>, Sums<2, 1>>(exec, "test", items, term, blocks, result);
+    const auto plain = host_values(exec, result);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(plain[0]), std::bit_cast<std::uint64_t>(want));
+    if (std::isfinite(want)) {
+      EXPECT_EQ(plain[1], std::max(0.0, std::ranges::max(numbers)));
+    }
+    reduce<B, 2, OnePerBlock<B>, Sums<2, 1>, Doubled<B>>(exec, "test", items, term, blocks, result,
+                                                         {result});
+    const auto followed = host_values(exec, result);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(followed[0]), std::bit_cast<std::uint64_t>(2 * want));
+  };
+  for (const double spread : {1.0, 20.0, 200.0}) {  // the last one is wider than a team's window
+    std::normal_distribution<double> exponent(0, spread), sign;
+    std::vector<double> numbers(count);
+    for (double& x : numbers) x = sign(random) * std::exp(exponent(random));
+    expect_exact(numbers);
+    for (std::size_t i = 1; i < count; i += 2) numbers[i] = -numbers[i - 1];
+    numbers.back() += std::exp(-spread);
+    expect_exact(numbers);
+  }
+  expect_exact(std::vector<double>(count, 0.0));
+  expect_exact(std::vector<double>(count, std::numeric_limits<double>::denorm_min()));
+  std::vector<double> with_infinity(count, 1.0);
+  with_infinity[9] = -std::numeric_limits<double>::infinity();
+  expect_exact(with_infinity);
+}
+
+/// Waves, of which it is noted that they were asked for.
+template <class B>
+struct Visited {
+  Doubles<B> visits;
+  int first = 0;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
+    visits(i) += 1;
+    return {{Kokkos::sin(0.3 * (i - first))}};
+  }
+};
+
+// Each term is computed once; the sum over owned items is that of these items alone, bit for bit.
+TYPED_TEST(Vocabulary, SumsOverOwnedItems) {
+  using B = TypeParam;
+  const typename B::Exec exec;
+  const BlockSums<B> blocks(n);
+  const auto result = zeros<Doubles<B>>("test.result", 1);
+  for (const auto [first, last] : {std::pair(0, n), std::pair(0, 600), std::pair(100, 612),
+                                   std::pair(700, n), std::pair(601, 1250), std::pair(400, 400)}) {
+    const auto visits = zeros<Doubles<B>>("test.visits", n);
+    reduce<B, 1>(exec, "test", Items(n, first, last), Visited<B>{visits, first}, blocks, result);
+    const double own = host_values(exec, result)[0];
+    for (const double count : host_values(exec, visits)) EXPECT_EQ(count, 1) << first;
+    EXPECT_EQ(own == 0, first == last);
+    if (first == last) continue;
+    reduce<B, 1>(exec, "test", last - first, Visited<B>{visits}, blocks, result);
+    EXPECT_EQ(own, host_values(exec, result)[0]) << first;
+  }
 }
 
 TEST(SymmetricBlock, InverseAndProduct) {
