@@ -70,11 +70,13 @@ class NoMessages final : public Exchange {
 
 void Ranks::together(const std::function<void()>& work) {
   if (count() == 1) return work();
-  const Failure own_failure = failure_of(work);
-  double any = own_failure.kind == FailureKind::none ? 0 : 1;
+  const Failure own = failure_of(work);
+  own_failure_ = own.text;
+  double any = own.kind == FailureKind::none ? 0 : 1;
   most({&any, 1});
+  own_failure_.clear();
   if (any == 0) return;
-  const std::vector<Bytes> all = gather(to_bytes(own_failure));
+  const std::vector<Bytes> all = gather(to_bytes(own));
   const auto failed = [](const Bytes& one) { return from_bytes(one).kind != FailureKind::none; };
   const auto first = std::ranges::find_if(all, failed);
   Failure failure = from_bytes(*first);

@@ -84,6 +84,14 @@ class Ranks {
 
   /// Returns what this rank has sent, and how long it waited.
   virtual Traffic traffic() const = 0;
+
+ protected:
+  /// Failure of this rank while together() waits to tell it to the others; empty: none. They may
+  /// wait elsewhere, for this rank: an implementation throws it after some time.
+  const std::string& own_failure() const { return own_failure_; }
+
+ private:
+  std::string own_failure_;
 };
 
 /// Mark of an exception that all ranks throw, by Ranks::together(). Another exception leaves the
