@@ -131,10 +131,25 @@ template <class B>
 struct RankLevel {
   Ranks* ranks;
   RankPart part;
+  Indices<B> number;                  ///< [local vertices] number in the whole mesh
   std::unique_ptr<Halo<B>> shares;    ///< rows of `partial`, of linear elements; none: nodal ones
   std::unique_ptr<Halo<B>> vertices;  ///< rows of vertices, of nodal elements
   std::unique_ptr<Halo<B>> slots;     ///< slots of nodal elements
 };
+
+/// Returns the vertices of a level, of which sums are taken over those that this rank owns.
+template <class B>
+Items vertices_of(const LevelData<B>& level) {
+  if (!level.ranks) return level.model.vertices;
+  const RankPart& part = level.ranks->part;
+  return {level.model.vertices, part.first_owned, part.last_owned};
+}
+
+/// Returns the ranks that share a level; null: one process has all of it.
+template <class B>
+Ranks* ranks_of(const LevelData<B>& level) {
+  return level.ranks ? level.ranks->ranks : nullptr;
+}
 
 /// Receives the rows of `partial` that other ranks compute; of linear elements. On one process it
 /// does nothing.

@@ -8,6 +8,7 @@
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/contact/contact.hpp>
 #include <plica/kernels/contact/contact_list.hpp>
+#include <plica/kernels/contact/list_sums.hpp>
 
 namespace plica {
 
@@ -152,7 +153,9 @@ class ContactResponse {
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< only where the surface may touch itself
   ListMaker<B> maker_;
-  BlockSums<B> blocks_;
+  BlockSums<B> blocks_;        ///< of this rank's own records
+  BlockSums<B> common_;        ///< of all ranks' records
+  ListSums<B> sums_of_records_;
   Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;

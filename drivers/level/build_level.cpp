@@ -87,7 +87,8 @@ VertexShares<B> shares_of_part(const LevelPart& part) {
 
 template <class B>
 void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
-                  const LevelConstants& c, BesideNodal beside, const LevelPart* part) {
+                  const LevelConstants& c, BesideNodal beside, const LevelPart* part,
+                  HaloRows& slots) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping,
@@ -103,7 +104,12 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
       constants.stabiliser.push_back(body.stabilisation * lame.mu);
       if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
     }
-    model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
+    if (part) {
+      auto [rows, halo] = build_nodal_part<B>(placed, constants, c.constrained, part->part);
+      model.rows = rows, slots = std::move(halo);
+    } else {
+      model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
+    }
     model.shares = with_followers(model.rows.shares, placed);
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty())
@@ -120,11 +126,27 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
 /// Makes the messages of a part. Rows of `partial` are received in place.
 template <class B>
 std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const LevelData<B>& level,
-                                               Element element) {
-  auto made = std::make_shared<RankLevel<B>>(RankLevel<B>{part.ranks, part.part, {}, {}, {}});
-  if (element == Element::linear)
-    made->shares = std::make_unique<Halo<B>>(*part.ranks, "shares of level 0", part.shares,
+                                               Element element, const HaloRows& slots) {
+  auto made = std::make_shared<RankLevel<B>>(
+      RankLevel<B>{part.ranks,
+                   part.part,
+                   to_device<Indices<B>>("level.number", part.part.vertex),
+                   {},
+                   {},
+                   {}});
+  Ranks& ranks = *part.ranks;
+  if (element == Element::linear) {
+    made->shares = std::make_unique<Halo<B>>(ranks, "shares of level 0", part.shares,
                                              std::vector{3}, level.partial.data());
+    return made;
+  }
+  constexpr int record = 12;  // numbers of a slot
+  const bool smoothed = level.model.rows.bulk_excess.extent(0) > 0;
+  made->vertices =
+      std::make_unique<Halo<B>>(ranks, "vertices of level 0", part.vertices, std::vector{3});
+  made->slots = std::make_unique<Halo<B>>(
+      ranks, "records of level 0", slots,
+      smoothed ? std::vector{1, 2, record} : std::vector{record});
   return made;
 }
 
@@ -139,8 +161,9 @@ LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelCon
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.followers = following_vertices<B>(placed);
-  add_elements(level, body, placed, c, beside, part);
-  if (part) level.ranks = rank_level(*part, level, c.element);
+  HaloRows slots;
+  add_elements(level, body, placed, c, beside, part, slots);
+  if (part) level.ranks = rank_level(*part, level, c.element, slots);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());

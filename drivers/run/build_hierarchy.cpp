@@ -134,7 +134,7 @@ class HierarchyBuilder {
   // this rank's part of level 0, its constants and the points of its surface; none: one process
   std::optional<LevelPart> part_;
   LevelConstants part_constants_;
-  std::vector<int> points_;
+  std::vector<int> points_, counted_;
   std::vector<std::unique_ptr<BodyLocator>> locators_;  // per level, see locator()
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
@@ -322,6 +322,7 @@ class HierarchyBuilder {
       const int v = static_cast<int>(found - part.vertex.begin());
       if (nodal && part.owner[static_cast<std::size_t>(v)] != ranks_->own()) continue;
       points_.push_back(static_cast<int>(p));
+      if (!nodal) counted_.push_back(part.owner[static_cast<std::size_t>(v)] == ranks_->own());
       own.vertices.push_back(surface_.vertices[p]);
       const int beside = std::max(0, v - 1);  // its value is read, and has the weight 0
       embedding.vertices.push_back({beside, beside, beside, v});
@@ -442,7 +443,8 @@ class HierarchyBuilder {
         .held = holdable(),
         .edge = built_.reports.front().mean_edge,
         .size = body_size(),
-        .kept = part_ ? std::optional(points_) : std::nullopt};
+        .kept = part_ ? std::optional(points_) : std::nullopt,
+        .counted = counted_};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
       touching.parts.push_back({&p.body.parts[b].material, locator(0).mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});

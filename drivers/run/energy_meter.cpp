@@ -21,7 +21,7 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
   inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
   set_gravity(gravity);
   const LevelData<B>& level = hierarchy[0];
-  blocks_ = BlockSums<B>(std::max(level.model.vertices, level.surface.points));
+  blocks_ = BlockSums<B>(std::max(level.model.vertices, level.surface.points), ranks_of<B>(level));
 }
 
 template <class B>
@@ -40,7 +40,7 @@ MotionReport EnergyMeter<B>::motion(const Point& drift) const {
   using Term = MotionEnergies<B>;
   const LevelData<B>& level = hierarchy_[0];
   reduce<B, 6, Term, MotionSums>(
-      hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
+      hierarchy_.exec(), "plica::motion_energies", vertices_of<B>(level),
       Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}},
       blocks_, result_);
   const auto sums = read();
@@ -58,7 +58,8 @@ Energies EnergyMeter<B>::all(double time) const {
   Energies e = motion(Point::Zero()).energies;
   if (level.viscosity) level.viscosity->look_at_once(exec);
   level.elasticity().energy(exec, level, level.state.u);
-  reduce<B, 1>(exec, "plica::elastic_energy", level.model.vertices,
+  complete_shares<B>(exec, level);
+  reduce<B, 1>(exec, "plica::elastic_energy", vertices_of<B>(level),
                EnergyOfShares<B>{level.model.shares, level.partial}, blocks_, result_);
   e.elastic = read()[0];
   if (level.contact()) e.contact = level.response().energy(exec, level, time);

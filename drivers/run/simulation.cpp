@@ -83,7 +83,7 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
     : problem(steppable(p, validation)),
       built(build_hierarchy<B>(problem, exec)),
       queue(exec),
-      meter(*built.hierarchy, built.meshes.front(), p.gravity),
+      meter(*built.hierarchy, built.meshes.front(), built.reports.front().mass, p.gravity),
       held(built.held),
       motions(p.contact),
       control(most_halvings(problem)) {
