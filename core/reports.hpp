@@ -162,12 +162,12 @@ struct Diagnosis {
 
 /// How several ranks share a body, and what they have sent each other.
 struct RankReport {
-  int count = 1;                ///< number of ranks
-  double imbalance = 1;         ///< largest number of tetrahedra of a rank over the mean
-  std::int64_t messages = 0;    ///< messages of all ranks so far
-  std::int64_t bytes = 0;       ///< size of these
-  double wait_share = 0;        ///< part of the time that a rank waits for others, mean
-  double most_wait_share = 0;   ///< part of the time that a rank waits for others, maximum
+  int count = 1;              ///< number of ranks
+  double imbalance = 1;       ///< largest number of elements of a rank over the mean
+  std::int64_t messages = 0;  ///< messages of all ranks so far
+  std::int64_t bytes = 0;     ///< size of these
+  double waited = 0;          ///< time that a rank has waited for others, mean [s]
+  double most_waited = 0;     ///< time that a rank has waited for others, maximum [s]
 };
 
 /// Outcome of a cut, or of all cuts of a simulation so far.

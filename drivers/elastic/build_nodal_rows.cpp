@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <plica/drivers/elastic/build_nodal_rows.hpp>
 #include <plica/drivers/elastic/vertex_shares.hpp>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -353,9 +353,8 @@ NodalPart<B> build_nodal_part(const TetMesh& mesh, const NodalConstants& constan
   std::vector<int> others;
   for (std::size_t d = 0; d < domains.size(); ++d)
     if (!own.has(domains[d])) others.push_back(static_cast<int>(d));
-  std::ranges::stable_sort(others, {}, [&](int d) {
-    return part.owner[index_of(domains[index_of(d)].vertex)];
-  });
+  std::ranges::stable_sort(
+      others, {}, [&](int d) { return part.owner[index_of(domains[index_of(d)].vertex)]; });
   const SlicedRows<B> sliced(domains, own, others);
   NodalPart<B> made{sliced.on_device(mesh.vertices.size(), !constants.bulk_excess.empty()),
                     halo_of_slots<B>(domains, others, sliced, part)};
@@ -371,18 +370,17 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
   work.records = zeros<Scalars<B>>("plica::nodal.records", 12 * n);
   if (rows.bulk_excess.extent(0) == 0) return work;
   work.ratio = zeros<Scalars<B>>("plica::nodal.ratio", 2 * n);
-  work.pressure = zeros<Scalars<B>>("plica::nodal.pressure",
-                                    2 * static_cast<std::size_t>(rows.slots()));
+  work.pressure =
+      zeros<Scalars<B>>("plica::nodal.pressure", 2 * static_cast<std::size_t>(rows.slots()));
   return work;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                            \
-  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>( \
-      const TetMesh&, const NodalConstants&, const std::vector<char>&);          \
-  template NodalPart<Backend<Real, Exec>> build_nodal_part<Backend<Real, Exec>>( \
-      const TetMesh&, const NodalConstants&, const std::vector<char>&,           \
-      const RankPart&);                                                          \
-  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
+#define PLICA_INSTANTIATE(Real, Exec)                                                    \
+  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>(         \
+      const TetMesh&, const NodalConstants&, const std::vector<char>&);                  \
+  template NodalPart<Backend<Real, Exec>> build_nodal_part<Backend<Real, Exec>>(         \
+      const TetMesh&, const NodalConstants&, const std::vector<char>&, const RankPart&); \
+  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(          \
       const NodalRows<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 

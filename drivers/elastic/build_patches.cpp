@@ -272,9 +272,9 @@ Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<doub
   return patches;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                       \
-  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>( \
-      const TetMesh&, const std::vector<std::vector<double>>&, const std::vector<double>&,  \
+#define PLICA_INSTANTIATE(Real, Exec)                                                      \
+  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>(                \
+      const TetMesh&, const std::vector<std::vector<double>>&, const std::vector<double>&, \
       const std::vector<std::vector<int>>*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -41,11 +41,7 @@ class Lanczos {
 
  public:
   Lanczos(const Exec& exec, const VectorMap<B>& A, const StiffnessAt<B>& K)
-      : exec_(exec),
-        A_(A),
-        K_(K),
-        n_(K.level.model.vertices),
-        blocks_(n_, ranks_of<B>(K.level)) {}
+      : exec_(exec), A_(A), K_(K), n_(K.level.model.vertices), blocks_(n_, ranks_of<B>(K.level)) {}
 
   /// Returns the largest eigenvalue, from the inner product of K, or of A where K is indefinite.
   /// K of a compressed body may be indefinite. The iteration in its product then meets vectors

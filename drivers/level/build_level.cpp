@@ -91,12 +91,11 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
                   HaloRows& slots) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
-    model.patches = build_patches<B>(placed, c.material, c.stiffness_damping,
-                                     part ? &part->runs : nullptr);
+    model.patches =
+        build_patches<B>(placed, c.material, c.stiffness_damping, part ? &part->runs : nullptr);
     if (!c.fibres.empty())
       model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
-    model.shares =
-        part ? shares_of_part<B>(*part) : with_followers(model.patches.shares, placed);
+    model.shares = part ? shares_of_part<B>(*part) : with_followers(model.patches.shares, placed);
   } else {
     const bool smoothed = smooths_pressure(body, c.lame);
     NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
@@ -127,13 +126,8 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
 template <class B>
 std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const LevelData<B>& level,
                                                Element element, const HaloRows& slots) {
-  auto made = std::make_shared<RankLevel<B>>(
-      RankLevel<B>{part.ranks,
-                   part.part,
-                   to_device<Indices<B>>("level.number", part.part.vertex),
-                   {},
-                   {},
-                   {}});
+  auto made = std::make_shared<RankLevel<B>>(RankLevel<B>{
+      part.ranks, part.part, to_device<Indices<B>>("level.number", part.part.vertex), {}, {}, {}});
   Ranks& ranks = *part.ranks;
   if (element == Element::linear) {
     made->shares = std::make_unique<Halo<B>>(ranks, "shares of level 0", part.shares,
@@ -144,9 +138,9 @@ std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const Leve
   const bool smoothed = level.model.rows.bulk_excess.extent(0) > 0;
   made->vertices =
       std::make_unique<Halo<B>>(ranks, "vertices of level 0", part.vertices, std::vector{3});
-  made->slots = std::make_unique<Halo<B>>(
-      ranks, "records of level 0", slots,
-      smoothed ? std::vector{1, 2, record} : std::vector{record});
+  made->slots =
+      std::make_unique<Halo<B>>(ranks, "records of level 0", slots,
+                                smoothed ? std::vector{1, 2, record} : std::vector{record});
   return made;
 }
 

@@ -23,8 +23,8 @@
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
-#include <plica/drivers/run/whole.hpp>
 #include <plica/drivers/run/validate.hpp>
+#include <plica/drivers/run/whole.hpp>
 #include <plica/drivers/time/critical_step.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
@@ -320,9 +320,11 @@ class HierarchyBuilder {
       const auto found = std::ranges::lower_bound(part.vertex, at[p]);
       if (found == part.vertex.end() || *found != at[p]) continue;
       const int v = static_cast<int>(found - part.vertex.begin());
-      if (nodal && part.owner[static_cast<std::size_t>(v)] != ranks_->own()) continue;
+      const bool is_owned = part.owner[static_cast<std::size_t>(v)] == ranks_->own();
+      if (nodal && !is_owned) continue;
+      if (is_owned) built_.owned_points.push_back(static_cast<int>(points_.size()));
       points_.push_back(static_cast<int>(p));
-      if (!nodal) counted_.push_back(part.owner[static_cast<std::size_t>(v)] == ranks_->own());
+      if (!nodal) counted_.push_back(is_owned ? 1 : 0);
       own.vertices.push_back(surface_.vertices[p]);
       const int beside = std::max(0, v - 1);  // its value is read, and has the weight 0
       embedding.vertices.push_back({beside, beside, beside, v});

@@ -21,8 +21,9 @@ struct BuiltHierarchy {
   std::vector<HeldSet> held;
   /// [points] number of each point of level 0's surface, on one of several ranks; else empty
   std::vector<int> surface_point;
-  double macro_step = 0;         ///< length of a macro step [s]
-  std::optional<HimReport> him;  ///< report of cycle him; none: another cycle
+  std::vector<int> owned_points;  ///< those of these points that the rank owns, as local numbers
+  double macro_step = 0;          ///< length of a macro step [s]
+  std::optional<HimReport> him;   ///< report of cycle him; none: another cycle
 };
 
 /// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets the

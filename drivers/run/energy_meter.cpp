@@ -11,8 +11,8 @@
 namespace plica {
 
 template <class B>
-EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
-                            double mass, const Point& gravity)
+EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, double mass,
+                            const Point& gravity)
     : hierarchy_(hierarchy), mass_(mass), result_("plica::energies", 6) {
   std::vector<double> edges = local_edge_lengths(mesh);
   if (hierarchy[0].ranks) edges = hierarchy[0].ranks->part.local(edges);

@@ -56,11 +56,10 @@ std::string refused_by_ranks(const Problem& problem) {
   std::string why = refused_methods(problem.integration);
   if (why.empty()) why = refused_loads(problem.body.loads);
   if (why.empty()) why = refused_contact(problem);
-  if (why.empty() && !problem.cuts.empty())
-    why = needs_one_process("cuts change the mesh", "none");
+  if (why.empty() && !problem.cuts.empty()) why = needs_one_process("cuts change the mesh", "none");
   const auto& levels = problem.body.levels;
-  if (why.empty() && (!problem.body.covers.empty() ||
-                      (!levels.empty() && !levels.front().piece.empty())))
+  if (why.empty() &&
+      (!problem.body.covers.empty() || (!levels.empty() && !levels.front().piece.empty())))
     why = needs_one_process("body.levels has a part that is finer", "levels of the whole body");
   return why;
 }

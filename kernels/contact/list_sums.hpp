@@ -82,8 +82,7 @@ void sum_records(const typename B::Exec& exec, const ContactRecords<B>& records,
   static_assert(N <= ListSums<B>::widest);
   int parts = memory.parts();
   const auto& integers = memory.integers();
-  update_vertices<B>(exec, label, parts,
-                     SumOfPart<B, N, Term>{records, term, parts, integers});
+  update_vertices<B>(exec, label, parts, SumOfPart<B, N, Term>{records, term, parts, integers});
   if (Ranks* const ranks = memory.ranks()) {
     launch_gathered<typename B::Exec>();
     constexpr std::size_t words = N * ExactSum::words;
