@@ -71,12 +71,12 @@ class NoMessages final : public Exchange {
 void Ranks::together(const std::function<void()>& work) {
   if (count() == 1) return work();
   const Failure own = failure_of(work);
-  own_failure_ = own.text;
+  own_failure_ = own.text, tells_failure_ = true;
   double any = own.kind == FailureKind::none ? 0 : 1;
   most({&any, 1});
-  own_failure_.clear();
+  const std::vector<Bytes> all = any == 0 ? std::vector<Bytes>{} : gather(to_bytes(own));
+  own_failure_.clear(), tells_failure_ = false;
   if (any == 0) return;
-  const std::vector<Bytes> all = gather(to_bytes(own));
   const auto failed = [](const Bytes& one) { return from_bytes(one).kind != FailureKind::none; };
   const auto first = std::ranges::find_if(all, failed);
   Failure failure = from_bytes(*first);

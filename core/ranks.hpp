@@ -86,11 +86,16 @@ class Ranks {
   virtual Traffic traffic() const = 0;
 
  protected:
-  /// Failure of this rank while together() waits to tell it to the others; empty: none. They may
-  /// wait elsewhere, for this rank: an implementation throws it after some time.
+  /// Returns whether together() calls most() or gather(), to tell of failures. While a rank waits
+  /// in these, others may wait in another call that it never comes to. An implementation keeps the
+  /// two apart.
+  bool tells_failure() const { return tells_failure_; }
+  /// Returns the failure that together() tells; empty: this rank has none. An implementation throws
+  /// it where the others do not come to hear it.
   const std::string& own_failure() const { return own_failure_; }
 
  private:
+  bool tells_failure_ = false;
   std::string own_failure_;
 };
 

@@ -92,6 +92,7 @@ class MpiRanks::Messages final : public Exchange {
 
   void start() override {
     of_.traffic_.messages += each_.messages, of_.traffic_.bytes += each_.bytes;
+    if (requests_.all.empty()) return;  // some MPIs refuse to start none
     MPI_Startall(static_cast<int>(requests_.all.size()), requests_.all.data());
   }
   void wait() override { of_.finish(requests_.all, requests_.ranks, what_); }
@@ -106,6 +107,7 @@ class MpiRanks::Messages final : public Exchange {
 MpiRanks::MpiRanks(MPI_Comm comm, Waiting waiting)
     : waiting_(std::move(waiting)), device_pointers_(sends_device_memory()) {
   MPI_Comm_dup(comm, &comm_);
+  MPI_Comm_dup(comm, &failures_);
   MPI_Comm_size(comm_, &count_);
   MPI_Comm_rank(comm_, &own_);
   int* largest = nullptr;
@@ -117,7 +119,7 @@ MpiRanks::MpiRanks(MPI_Comm comm, Waiting waiting)
 MpiRanks::~MpiRanks() {
   int over = 0;
   MPI_Finalized(&over);
-  if (over == 0) MPI_Comm_free(&comm_);
+  if (over == 0) MPI_Comm_free(&comm_), MPI_Comm_free(&failures_);
 }
 
 std::unique_ptr<Exchange> MpiRanks::open(std::string what, std::vector<Outgoing> sent,
@@ -139,7 +141,7 @@ void MpiRanks::combine(std::span<std::int64_t> values, MPI_Op operation, const c
   ++traffic_.sums;
   MPI_Request request;
   MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T,
-                 operation, comm_, &request);
+                 operation, comm(), &request);
   finish({&request, 1}, {}, what);
 }
 
@@ -150,7 +152,7 @@ std::vector<Bytes> MpiRanks::gather(std::span<const std::byte> bytes) {
   const std::size_t own_size = bytes.size();
   MPI_Request request;
   MPI_Iallgather(&own_size, sizeof own_size, MPI_BYTE, sizes.data(), sizeof own_size, MPI_BYTE,
-                 comm_, &request);
+                 comm(), &request);
   finish({&request, 1}, {}, what);
   std::vector<Bytes> all(ranks);
   const std::size_t part = std::max<std::size_t>(waiting_.largest_message / ranks, 1);
@@ -164,7 +166,7 @@ std::vector<Bytes> MpiRanks::gather(std::span<const std::byte> bytes) {
     for (std::size_t r = 1; r < ranks; ++r) first[r] = first[r - 1] + counts[r - 1];
     Bytes received(static_cast<std::size_t>(first.back() + counts.back()));
     MPI_Iallgatherv(bytes.data() + std::min(begin, own_size), in_part(own_size), MPI_BYTE,
-                    received.data(), counts.data(), first.data(), MPI_BYTE, comm_, &request);
+                    received.data(), counts.data(), first.data(), MPI_BYTE, comm(), &request);
     finish({&request, 1}, {}, what);
     for (std::size_t r = 0; r < ranks; ++r)
       all[r].insert(all[r].end(), received.begin() + first[r],
@@ -211,6 +213,7 @@ std::vector<Bytes> MpiRanks::to_all(const std::vector<Bytes>& for_each) {
 // other end of each request; empty: a call of all ranks.
 void MpiRanks::finish(std::span<MPI_Request> requests, std::span<const int> ranks,
                       const std::string& what) {
+  if (requests.empty()) return;
   const Clock::time_point start = Clock::now();
   bool said = false;
   int done = 0;

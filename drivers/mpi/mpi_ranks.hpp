@@ -30,12 +30,13 @@ class MpiRanks final : public Ranks {
 
  private:
   class Messages;
+  MPI_Comm comm() const { return tells_failure() ? failures_ : comm_; }
   void combine(std::span<std::int64_t> values, MPI_Op operation, const char* what);
   void finish(std::span<MPI_Request> requests, std::span<const int> ranks, const std::string& what);
   void say_waiting(std::span<MPI_Request> requests, std::span<const int> ranks,
                    const std::string& what) const;
 
-  MPI_Comm comm_ = MPI_COMM_NULL;
+  MPI_Comm comm_ = MPI_COMM_NULL, failures_ = MPI_COMM_NULL;
   Waiting waiting_;
   int count_ = 1, own_ = 0, opened_ = 0, largest_tag_ = 0;
   bool device_pointers_ = false;
