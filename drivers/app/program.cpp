@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -33,8 +35,7 @@ class CommandLine {
         "standard error.\n"
         "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
     add_run();
-    add_study_option(add_scene_command("explain", "say what a run of the scene would do",
-                                       [this] { return explain(arguments_); }));
+    add_explain();
     add_scene_command("check", "check the scene, run nothing",
                       [this] { return check(arguments_); });
     add_study();
@@ -50,8 +51,9 @@ class CommandLine {
   }
 
   /// Runs the command. Throws CLI::ParseError for bad words, --help and --version.
-  ExitStatus execute(std::vector<std::string> words) {
+  ExitStatus execute(std::vector<std::string> words, Ranks* ranks) {
     arguments_.words = words;
+    arguments_.ranks = ranks && ranks->count() > 1 ? ranks : nullptr;
     const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
     std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through),
                  is_kokkos);
@@ -65,6 +67,11 @@ class CommandLine {
       arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
     if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
       throw CLI::RequiredError("SCENE, or --resume FOLDER,");
+    if (arguments_.ranks && !app_.got_subcommand("run"))
+      throw InputError(
+          fmt::format("plica {} is one process, and {} were started; expected plica "
+                      "run, or one process",
+                      app_.get_subcommands().front()->get_name(), arguments_.ranks->count()));
     if (app_.got_subcommand("stability")) check_stability();
     if (!study_folder_.empty())
       for (const Override& chosen :
@@ -154,6 +161,17 @@ class CommandLine {
         ->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(thread_count.min, thread_count.max));
+  }
+
+  void add_explain() {
+    CLI::App* command = add_scene_command("explain", "say what a run of the scene would do",
+                                          [this] { return explain(arguments_); });
+    add_study_option(command);
+    command
+        ->add_option("--ranks", arguments_.ranks_planned,
+                     "say also what each of N ranks would have and send")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
   }
 
   void add_run() {
@@ -426,12 +444,16 @@ ExitStatus failed(const std::string& text, ExitStatus status) {
   return status;
 }
 
-ExitStatus guarded(const std::vector<std::string>& words) {
+ExitStatus guarded(const std::vector<std::string>& words, Ranks* ranks) {
+  const bool speaks = !ranks || ranks->own() == 0;
+  const auto failed = [&](const std::string& text, ExitStatus status) {
+    return speaks ? app::failed(text, status) : status;
+  };
   CommandLine command_line;
   try {
-    return command_line.execute(words);
+    return command_line.execute(words, ranks);
   } catch (const CLI::ParseError& error) {
-    return command_line.explain_error(error);
+    return speaks ? command_line.explain_error(error) : ExitStatus::bad_input;
   } catch (const InputError& error) {
     return failed(error.what(), ExitStatus::bad_input);
   } catch (const FolderError& error) {
@@ -451,9 +473,9 @@ ExitStatus guarded(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int program(int argc, char** argv) {
+int program(int argc, char** argv, Ranks* ranks) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails with an error
-  ExitStatus status = guarded({argv, argv + argc});
+  ExitStatus status = guarded({argv, argv + argc}, ranks);
   if (!std::cout.flush() && status == ExitStatus::done)
     status = failed("cannot write the standard output", ExitStatus::failed);
   return static_cast<int>(status);

@@ -17,6 +17,7 @@
 #include <cstring>
 #include <numeric>
 #include <plica/core/text.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/whole.hpp>
 #include <utility>

@@ -6,6 +6,7 @@
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/kernels/followers.hpp>
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <plica/core/ranks.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct SceneArguments {
   std::vector<Override> overrides;
   std::string precision;  ///< float or double; empty: double, or a checkpoint's
   bool json = false;
+  int ranks_planned = 0;  ///< number of ranks that `plica explain` plans for; 0: none
   KokkosArguments kokkos;
 };
 
@@ -53,6 +55,7 @@ struct RunArguments : SceneArguments {
   bool quiet = false;
   bool time_stages = false;        ///< true: times each stage on a GPU too, which slows the run
   std::vector<std::string> words;  ///< the command line as it was given
+  Ranks* ranks = nullptr;          ///< ranks that run the scene together; null: one process
 };
 
 /// Arguments of `plica study`, besides those of a run.

@@ -225,6 +225,15 @@ std::string summary_json(const Scene& scene, const Summary& s,
     json["cuts"] = {{"opened_faces", s.cuts->opened_faces},
                     {"new_vertices", s.cuts->new_vertices},
                     {"pieces", s.cuts->pieces}};
+  if (s.ranks) {
+    const double time = std::max(s.wall_time, std::numeric_limits<double>::min());
+    json["ranks"] = {{"count", s.ranks->count},
+                     {"imbalance", s.ranks->imbalance},
+                     {"messages", s.ranks->messages},
+                     {"bytes", s.ranks->bytes},
+                     {"wait_share", s.ranks->waited / time},
+                     {"most_wait_share", s.ranks->most_waited / time}};
+  }
   return json_text(json);
 }
 
