@@ -20,7 +20,8 @@ int owner_in(const std::vector<int>& first, int number) {
 int RankRanges::owner(int v) const { return owner_in(vertex, v); }
 int RankRanges::owner_of_run(int p) const { return owner_in(run, p); }
 
-RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks) {
+RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks,
+                       int block) {
   // tetrahedra and vertices in front of each run
   std::vector<std::int64_t> tets{0}, vertices{0};
   std::vector<char> seen(mesh.vertices.size(), 0);
@@ -39,9 +40,8 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
                        tets[static_cast<std::size_t>(run)] - wanted)
       --run;
     ranges.run.push_back(static_cast<int>(run));
-    const std::int64_t blocks =
-        (vertices[static_cast<std::size_t>(run)] + RankRanges::block / 2) / RankRanges::block;
-    ranges.vertex.push_back(static_cast<int>(std::min(all, blocks * RankRanges::block)));
+    const std::int64_t blocks = (vertices[static_cast<std::size_t>(run)] + block / 2) / block;
+    ranges.vertex.push_back(static_cast<int>(std::min(all, blocks * block)));
   }
   ranges.run.push_back(static_cast<int>(runs.size()));
   ranges.vertex.push_back(static_cast<int>(all));
@@ -235,10 +235,10 @@ std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
 
 }  // namespace
 
-LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks) {
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block) {
   const auto runs = runs_of_patches(mesh);
-  LevelPart made =
-      part_of_level(mesh, element, runs, rank_ranges(mesh, runs, ranks.count()), ranks.own());
+  LevelPart made = part_of_level(mesh, element, runs, rank_ranges(mesh, runs, ranks.count(), block),
+                                 ranks.own());
   made.ranks = &ranks;
   return made;
 }
@@ -346,9 +346,9 @@ void count_nodal(const TetMesh& mesh, const RankRanges& ranges, std::vector<Rank
 
 }  // namespace
 
-std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks) {
+std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks, int block) {
   const auto runs = runs_of_patches(mesh);
-  const RankRanges ranges = rank_ranges(mesh, runs, ranks);
+  const RankRanges ranges = rank_ranges(mesh, runs, ranks, block);
   std::vector<RankPlan> plans(index_of(ranks));
   for (int r = 0; r < ranks; ++r) {
     RankPlan& plan = plans[index_of(r)];

@@ -13,9 +13,8 @@ namespace plica {
 
 /// Ranges of a mesh that ranks own, [ranks + 1] each: rank r has those from r to before r + 1.
 struct RankRanges {
-  static constexpr int block = 512;  ///< vertices that are owned together, as BlockSums adds them
-  std::vector<int> vertex;           ///< first vertex of each rank, a whole number of blocks
-  std::vector<int> run;              ///< first run of tetrahedra of each rank
+  std::vector<int> vertex;  ///< first vertex of each rank, a whole number of blocks
+  std::vector<int> run;     ///< first run of tetrahedra of each rank
 
   int ranks() const { return static_cast<int>(vertex.size()) - 1; }
   int owner(int v) const;         ///< returns the rank that owns a vertex
@@ -23,8 +22,10 @@ struct RankRanges {
 };
 
 /// Shares a mesh out, so that all ranks have about as many tetrahedra.
-/// @param runs  all tetrahedra, see element_runs()
-RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks);
+/// @param runs   all tetrahedra, see element_runs()
+/// @param block  number of vertices that are owned together, see vertex_block
+RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks,
+                       int block = 512);
 
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
@@ -47,7 +48,7 @@ LevelPart part_of_level(const TetMesh& mesh, Element element,
                         const std::vector<std::vector<int>>& runs, const RankRanges& ranges,
                         int own);
 /// Returns this rank's part of a level in a simulation of several ranks.
-LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks);
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block = 512);
 
 /// Returns the constants of the part's vertices and tetrahedra.
 LevelConstants constants_of_part(const LevelConstants& whole, const RankPart& part);
@@ -66,6 +67,6 @@ struct RankPlan {
 };
 
 /// Returns for each rank what it would have and exchange.
-std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks);
+std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks, int block = 512);
 
 }  // namespace plica

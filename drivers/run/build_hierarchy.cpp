@@ -297,7 +297,7 @@ class HierarchyBuilder {
   /// Finds this rank's part of level 0, and what acts on it.
   void take_part() {
     const TetMesh& mesh = built_.meshes.front();
-    part_ = part_of_level(mesh, constants_.front().element, *ranks_);
+    part_ = part_of_level(mesh, constants_.front().element, *ranks_, vertex_block<B>);
     part_constants_ = constants_of_part(constants_.front(), part_->part);
     built_.held = held_by_part(built_.held, part_->part);
     terms_.push_back(make_force_terms<B>(problem_.body, part_->mesh, part_constants_,
