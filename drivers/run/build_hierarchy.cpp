@@ -17,14 +17,15 @@
 #include <plica/drivers/elastic/element_bound.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/level/build_level.hpp>
+#include <plica/drivers/level/surface_of_part.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/loads/dead_loads.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/deform_start.hpp>
 #include <plica/drivers/run/validate.hpp>
-#include <plica/drivers/run/whole.hpp>
 #include <plica/drivers/time/critical_step.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
@@ -36,23 +37,6 @@
 namespace plica {
 
 namespace {
-
-/// Returns the vertex at the place of each point; empty: a point is at none, or at several.
-std::vector<int> vertices_at(const std::vector<Point>& points, const TetMesh& mesh) {
-  std::vector<int> order(points.size()), at(points.size(), -1);
-  std::iota(order.begin(), order.end(), 0);
-  const auto before = [](const Point& a, const Point& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
-  const auto of = [&](int p) -> const Point& { return points[static_cast<std::size_t>(p)]; };
-  std::ranges::sort(order, before, of);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const auto found = std::ranges::equal_range(order, mesh.vertices[v], before, of);
-    for (const int p : found)
-      if (std::exchange(at[static_cast<std::size_t>(p)], static_cast<int>(v)) >= 0) return {};
-  }
-  return std::ranges::count(at, -1) > 0 ? std::vector<int>{} : at;
-}
 
 Outside outside_rule(const IntegrationOptions& o) {
   if (stepper_needs(o.cycle).extrapolation) return Outside::extrapolate;
@@ -105,7 +89,9 @@ class HierarchyBuilder {
     for (std::size_t i = 0; i < levels_; ++i)
       phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
     phase("planning the steps", [&] { plan(); });
-    if (starts_deformed(problem_.body.initial)) deform();
+    if (starts_deformed(problem_.body.initial))
+      deform_start<B>(problem_.body, built_.meshes.front(), constants_.front().constrained,
+                      built_.hierarchy->levels.front());
     built_.stepper->start(*built_.hierarchy);
     for (const auto& level : built_.hierarchy->levels)
       follow_masters(built_.hierarchy->exec(), level.model, level.state);
@@ -131,10 +117,10 @@ class HierarchyBuilder {
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;                  // per level
   std::vector<std::vector<std::unique_ptr<ForceTerm<B>>>> terms_;  // per level
-  // this rank's part of level 0, its constants and the points of its surface; none: one process
+  // this rank's part of level 0, its constants and its surface; none: one process
   std::optional<LevelPart> part_;
   LevelConstants part_constants_;
-  std::vector<int> points_, counted_;
+  SurfacePart part_surface_;
   std::vector<std::unique_ptr<BodyLocator>> locators_;  // per level, see locator()
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
@@ -218,30 +204,6 @@ class HierarchyBuilder {
     built_.held = constants_.front().held;
   }
 
-  /// Deforms level 0 as it starts, after limits were found at rest. The other levels take their
-  /// states from it.
-  void deform() {
-    const TetMesh& mesh = built_.meshes.front();
-    const Level<B>& level = built_.hierarchy->levels.front();
-    const State<B>& state = level.state;
-    std::vector<Point> u =
-        initial_displacement(problem_.body.initial, mesh, bounding_box(mesh.vertices));
-    const std::vector<Point> given = whole_field<B>(level, state.u);
-    for (std::size_t a = 0; a < u.size(); ++a)
-      if (constants_.front().constrained[a]) u[a] = given[a];
-    if (!allows_inversion(problem_.body.material))
-      if (const std::string inverted = inverted_at_start(mesh, u); !inverted.empty())
-        throw InputError(
-            "body.initial: " + inverted +
-            ", which this material may not; expected "
-            "body.material.allow_inversion: true, or a start without inverted elements");
-    if (part_) u = part_->part.local(u);
-    copy(built_.hierarchy->exec(), state.u,
-         to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
-    hold_sliding(built_.hierarchy->exec(), built_.hierarchy->levels.front(), state.u);
-    follow_masters(built_.hierarchy->exec(), built_.hierarchy->levels.front().model, state.u);
-  }
-
   void report_mesh(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
     LevelReport& report = built_.reports.emplace_back();
@@ -302,36 +264,10 @@ class HierarchyBuilder {
     built_.held = held_by_part(built_.held, part_->part);
     terms_.push_back(make_force_terms<B>(problem_.body, part_->mesh, part_constants_,
                                          loads_of_part(loads_.front(), part_->part), 0));
-  }
-
-  /// Makes the part of the surface that is at vertices where forces are complete: with nodal
-  /// elements at owned vertices, with linear ones at all local vertices.
-  EmbeddedSurface<B> surface_of_part() {
-    const RankPart& part = part_->part;
-    const bool nodal = constants_.front().element == Element::nodal;
-    TriangleSurface own;
-    Embedding embedding;
-    const std::vector<int> at = vertices_at(surface_.vertices, built_.meshes.front());
-    if (at.empty())
-      throw InputError(
-          "body.surface has points that are at no vertex of level 0, which needs one process; "
-          "expected body.surface: boundary, or none");
-    for (std::size_t p = 0; p < at.size(); ++p) {
-      const auto found = std::ranges::lower_bound(part.vertex, at[p]);
-      if (found == part.vertex.end() || *found != at[p]) continue;
-      const int v = static_cast<int>(found - part.vertex.begin());
-      const bool is_owned = part.owner[static_cast<std::size_t>(v)] == ranks_->own();
-      if (nodal && !is_owned) continue;
-      if (is_owned) built_.owned_points.push_back(static_cast<int>(points_.size()));
-      points_.push_back(static_cast<int>(p));
-      if (!nodal) counted_.push_back(is_owned ? 1 : 0);
-      own.vertices.push_back(surface_.vertices[p]);
-      const int beside = std::max(0, v - 1);  // its value is read, and has the weight 0
-      embedding.vertices.push_back({beside, beside, beside, v});
-      embedding.weights.push_back({0, 0, 0, 1});
-    }
-    built_.surface_point = points_;
-    return build_surface<B>(own, embedding);
+    if (!problem_.body.surface) return;
+    part_surface_ =
+        surface_of_part(surface_, mesh, part_->part, constants_.front().element, ranks_->own());
+    built_.surface_point = part_surface_.points, built_.owned_points = part_surface_.owned;
   }
 
   void add_level(std::size_t i) {
@@ -350,7 +286,8 @@ class HierarchyBuilder {
     // the finest level has the surface for output; the others have it only where something acts on
     // it
     if (problem_.body.surface && (i == 0 || has_contact(problem_) || problem_.surface_forces))
-      level.surface = part_ ? surface_of_part() : build_surface<B>(surface_, embed_surface(i));
+      level.surface = part_ ? build_surface<B>(part_surface_.surface, part_surface_.embedding)
+                            : build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock,
                                           static_cast<int>(i));
     built_.hierarchy->levels.back().terms = std::move(terms_[i]);
@@ -445,8 +382,8 @@ class HierarchyBuilder {
         .held = holdable(),
         .edge = built_.reports.front().mean_edge,
         .size = body_size(),
-        .kept = part_ ? std::optional(points_) : std::nullopt,
-        .counted = counted_};
+        .kept = part_ ? std::optional(part_surface_.points) : std::nullopt,
+        .counted = part_surface_.counted};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
       touching.parts.push_back({&p.body.parts[b].material, locator(0).mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
