@@ -129,8 +129,8 @@ class Halo {
 /// What a level has on one of several ranks.
 template <class B>
 struct RankLevel {
-  Ranks* ranks;
-  RankPart part;
+  Ranks* ranks;                       ///< ranks that share the level
+  RankPart part;                      ///< vertices and elements that this one has
   Indices<B> number;                  ///< [local vertices] number in the whole mesh
   std::unique_ptr<Halo<B>> shares;    ///< rows of `partial`, of linear elements; none: nodal ones
   std::unique_ptr<Halo<B>> vertices;  ///< rows of vertices, of nodal elements

@@ -29,9 +29,9 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
-  Ranks* ranks = nullptr;
-  RankPart part;
-  TetMesh mesh;  ///< vertices and tetrahedra of the part, with local numbers
+  Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
+  RankPart part;           ///< numbers of its vertices and tetrahedra
+  TetMesh mesh;            ///< vertices and tetrahedra of the part, with local numbers
   /// own runs, of local tetrahedra; of linear elements
   std::vector<std::vector<int>> runs;
   HaloRows shares;  ///< rows of `partial`, of linear elements

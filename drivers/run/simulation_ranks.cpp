@@ -20,6 +20,7 @@
 #include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/whole.hpp>
+#include <stdexcept>
 #include <utility>
 
 namespace plica {
@@ -176,7 +177,8 @@ double Simulation<B>::Impl::follow(Call until) {
     const std::vector<Bytes> received = ranks->to_all(nothing);
     Told told;
     std::memcpy(&told, received.front().data(), sizeof told);
-    if (told.call == until || told.call == Call::end) return told.argument;
+    if (told.call == until) return told.argument;
+    if (told.call == Call::end) throw std::runtime_error("rank 0 has left within a macro step");
     Simulation& s = *self;
     switch (told.call) {
       case Call::step:
