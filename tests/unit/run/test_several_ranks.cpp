@@ -30,8 +30,8 @@ constexpr int macro_steps = 6;
 
 TetMesh liver() { return read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk"); }
 
-/// A small lump of two regions, of 5 blocks of vertices.
-TetMesh lump() { return jittered(blob_mesh(Point::Zero(), 0.1, 12), 0.2); }
+/// A small lump of two regions; with 12 cells across it has 5 blocks of vertices, with 8 it has 2.
+TetMesh lump(int cells = 12) { return jittered(blob_mesh(Point::Zero(), 0.1, cells), 0.2); }
 
 /// An organ that is held at one end, moved at the other and pulled, with a ball in its side.
 Problem organ(const TetMesh& mesh, const std::string& element) {
@@ -153,12 +153,12 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneInEachMaterial) {
   for (const MaterialInfo& info : material_list())
     for (const char* element : {"linear", "nodal"}) {
       SCOPED_TRACE(std::string(info.name) + ", " + element);
-      Problem problem = organ(lump(), element);
+      Problem problem = organ(lump(8), element);
       problem.contact = {}, problem.body.surface.reset();
       problem.body.material = complete({std::string(info.name), 20e3, 0.35, 1000});
       if (info.has_fibres)
         problem.body.material.fibres = FibreOptions{{1, 0.3, 0}, Point(0, 1, 0.2), {}};
-      expect_on_ranks<TypeParam>(on_one_process<TypeParam>(problem), problem, 3);
+      expect_on_ranks<TypeParam>(on_one_process<TypeParam>(problem), problem, 2);
     }
 }
 
