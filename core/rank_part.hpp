@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-// What one rank has of a level whose vertices are shared out to several ranks. Ranks own ranges of
+// Part that one rank has of a level whose vertices several ranks share. Ranks own ranges of
 // vertices, whole blocks of them, and ranges of the runs of tetrahedra along the mesh's curve.
 // Local numbers ascend as those of the whole mesh do:
 //

@@ -160,7 +160,7 @@ struct Diagnosis {
   std::string text() const;  ///< returns one sentence with all of it
 };
 
-/// How several ranks share a body, and what they have sent each other.
+/// Shares of several ranks in a body, and the messages between them.
 struct RankReport {
   int count = 1;              ///< number of ranks
   double imbalance = 1;       ///< largest number of elements of a rank over the mean

@@ -126,7 +126,7 @@ class Halo {
   }
 };
 
-/// What a level has on one of several ranks.
+/// Part of a level on one of several ranks, and its messages.
 template <class B>
 struct RankLevel {
   Ranks* ranks;                       ///< ranks that share the level

@@ -153,8 +153,8 @@ class ContactResponse {
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< only where the surface may touch itself
   ListMaker<B> maker_;
-  BlockSums<B> blocks_;  ///< of this rank's own records
-  BlockSums<B> common_;  ///< of all ranks' records
+  BlockSums<B> blocks_;  ///< block sums of this rank's own records
+  BlockSums<B> common_;  ///< block sums of all ranks' records
   ListSums<B> sums_of_records_;
   Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;

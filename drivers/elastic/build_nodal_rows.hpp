@@ -26,7 +26,7 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
 /// Rows of one rank, and the slots that it exchanges.
 template <class B>
 struct NodalPart {
-  NodalRows<B> rows;  ///< of owned vertices; behind their slots are those of the other ranks
+  NodalRows<B> rows;  ///< rows of owned vertices; slots of other ranks are behind their slots
   HaloRows slots;
 };
 

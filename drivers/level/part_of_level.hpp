@@ -60,7 +60,7 @@ std::vector<HeldSet> held_by_part(const std::vector<HeldSet>& whole, const RankP
 
 /// Numbers of a mesh that is shared out to ranks.
 struct RankPlan {
-  std::int64_t tets = 0, vertices = 0;  ///< that it owns
+  std::int64_t tets = 0, vertices = 0;  ///< numbers of what it owns
   std::int64_t copies = 0;              ///< vertices that it has besides
   std::int64_t sent = 0, received = 0;  ///< rows of each force
   int neighbours = 0;                   ///< ranks that it receives rows from

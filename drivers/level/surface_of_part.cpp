@@ -24,7 +24,7 @@ SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
     if (element == Element::linear) made.counted.push_back(is_owned ? 1 : 0);
     made.points.push_back(static_cast<int>(p));
     made.surface.vertices.push_back(surface.vertices[p]);
-    const int beside = std::max(0, v - 1);  // its value is read, and has the weight 0
+    const int beside = std::max(0, v - 1);  // read with the weight 0
     made.embedding.vertices.push_back({beside, beside, beside, v});
     made.embedding.weights.push_back({0, 0, 0, 1});
   }

@@ -11,8 +11,8 @@ namespace plica {
 struct SurfacePart {
   std::vector<int> points;   ///< numbers in the whole surface, ascending
   std::vector<int> counted;  ///< [points] 1: at an owned vertex; empty: all are
-  std::vector<int> owned;    ///< those at owned vertices, by their place in `points`
-  TriangleSurface surface;   ///< these points, without triangles
+  std::vector<int> owned;    ///< places in `points` of those at owned vertices
+  TriangleSurface surface;   ///< the points, without triangles
   Embedding embedding;       ///< each at its vertex of the part
 };
 

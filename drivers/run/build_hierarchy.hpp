@@ -21,7 +21,7 @@ struct BuiltHierarchy {
   std::vector<HeldSet> held;
   /// [points] number of each point of level 0's surface, on one of several ranks; else empty
   std::vector<int> surface_point;
-  std::vector<int> owned_points;  ///< those of these points that the rank owns, as local numbers
+  std::vector<int> owned_points;  ///< local numbers of the points that the rank owns
   double macro_step = 0;          ///< length of a macro step [s]
   std::optional<HimReport> him;   ///< report of cycle him; none: another cycle
 };

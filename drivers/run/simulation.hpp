@@ -109,7 +109,7 @@ class Simulation {
   void dismiss(int status);
   /// Returns the number in the whole mesh of each vertex that this rank owns, ascending.
   std::vector<int> numbers() const;
-  /// Returns how ranks share the body; none: one process has all of it.
+  /// Returns how ranks share the body; none: one process has all of it. All ranks call this.
   std::optional<RankReport> ranks() const;
 
   double time() const;                             ///< simulated time [s]

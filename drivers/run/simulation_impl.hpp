@@ -147,7 +147,7 @@ struct Simulation<B>::Impl {
   // Several ranks, see simulation_ranks.cpp
   Ranks* ranks = nullptr;  // null: one process
   bool leads = false, follows = false;
-  Simulation* self = nullptr;  // of a rank that follows
+  Simulation* self = nullptr;  // this simulation, on a rank that follows
   int calls = 0;               // depth of calls that the others know of
   // numbers of surface points and of tetrahedra as the ranks have them, one rank after the other
   std::vector<int> joined_points, joined_tets;

@@ -27,7 +27,7 @@ namespace plica {
 
 namespace {
 
-/// What rank 0 tells the others.
+/// Message from rank 0 to the others.
 struct Told {
   Call call = Call::end;
   double argument = 0, other = 0;

@@ -226,6 +226,7 @@ void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInp
 
 template <class B>
 std::vector<Point> Simulation<B>::positions(int level) const {
+  impl_->level(level);  // throws where there is no such level
   const LedCall led(*impl_, Call::positions);
   std::vector<Point> x = to_host<B>(impl_->hierarchy().exec(), displacement(level));
   const auto& rest = impl_->built.meshes[static_cast<std::size_t>(level)].vertices;
@@ -236,6 +237,7 @@ std::vector<Point> Simulation<B>::positions(int level) const {
 }
 template <class B>
 std::vector<Point> Simulation<B>::velocities(int level) const {
+  impl_->level(level);
   const LedCall led(*impl_, Call::velocities);
   return impl_->of_vertices(to_host<B>(impl_->hierarchy().exec(), velocity(level)));
 }
@@ -281,8 +283,8 @@ void add_tensors(const std::vector<double>& rows, std::size_t numbers, ElementFi
 
 template <class B>
 ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
-  const LedCall led(*impl_, Call::element_fields, tensors ? 1 : 0);
   const Level<B>& of = impl_->level(level);
+  const LedCall led(*impl_, Call::element_fields, tensors ? 1 : 0);
   const bool nodal =
       impl_->built.reports[static_cast<std::size_t>(level)].element == name_of(Element::nodal);
   const int rows = nodal ? of.model.vertices : of.model.tets;

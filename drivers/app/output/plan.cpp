@@ -190,7 +190,7 @@ std::string parts_text(const Plan& plan) {
 // Returns the size of what a rank receives for a force [bytes]
 double bytes_of_force(const Plan& plan, const RankPlan& rank) {
   const bool nodal = plan.levels.front().element == name_of(Element::nodal);
-  const double numbers = nodal ? 3 + 12 : 3;  // of a row: a vertex and a record, or a share
+  const double numbers = nodal ? 3 + 12 : 3;  // numbers of a row: a vertex and a record, or a share
   return numbers * (plan.precision == "float" ? 4 : 8) * static_cast<double>(rank.received);
 }
 

@@ -90,7 +90,7 @@ struct Plan {
   std::optional<HimReport> him;
   std::optional<CycleChoice> choice;
   std::vector<Part> parts;
-  std::vector<RankPlan> ranks = {};  ///< what each of several ranks would have; empty: not asked
+  std::vector<RankPlan> ranks = {};  ///< share of each of several ranks; empty: not asked for
 };
 
 /// Returns the output of `plica explain` as text in 100 columns.

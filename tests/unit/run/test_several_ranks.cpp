@@ -162,7 +162,7 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneInEachMaterial) {
     }
 }
 
-// What an explicit level may have besides: damping by stiffness, relaxation, smoothed pressures,
+// Options of an explicit level: damping by stiffness, relaxation, smoothed pressures,
 // regions, sliding vertices, a turn, a tool with mass, other integrators.
 TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOption) {
   const std::map<std::string, std::function<void(Problem&)>> options = {
