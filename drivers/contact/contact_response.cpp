@@ -112,8 +112,8 @@ template <class B>
 template <class End>
 void ContactResponse<B>::end(const Exec& exec, const char* label, const End& kernel) const {
   if (!contact_->rubs()) return over_list<B>(exec, records_.list, label, kernel);
-  sum_records<B, 1>(exec, records_, label, kernel, sums_of_records_, sums_,
-                    AddWork<B>{sums_, work_});
+  sum_records_later<B, 1>(exec, records_, label, kernel, sums_of_records_, sums_,
+                          AddWork<B>{sums_, work_});
 }
 
 template <class B>
@@ -169,8 +169,8 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level
                                      const State<B>& state, double time,
                                      const CarriedImpulse& of) const {
   const auto add = [&](int number, const auto& term) {
-    sum_records<B, 6>(exec, records_, "plica::contact_wrench", term, sums_of_records_, sums_,
-                      AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
+    sum_records_later<B, 6>(exec, records_, "plica::contact_wrench", term, sums_of_records_, sums_,
+                            AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
   };
   for (int o = 0; o < contact_->obstacles(); ++o)
     add(o, ObstacleWrench<B>{level.surface, state.u, records_, o, contact_->place(o, time)});

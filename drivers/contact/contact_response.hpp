@@ -81,6 +81,8 @@ class ContactResponse {
   /// Adds the last forces to the impulses, for a method that carries forces from step to step.
   void add_impulse(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                    const CarriedImpulse& of) const;
+  /// Finishes the sums of a macro step over all ranks: impulses, and the work of friction.
+  void finish_sums(const Exec& exec) const { sums_of_records_.finish(exec); }
   /// Returns the impulses and angular impulses: [6 obstacles, then 6 bodies] N s and N m s.
   const Doubles<B>& impulse() const { return impulse_; }
   /// Returns the energy stored in all contact of the level's state [J]. Waits.
