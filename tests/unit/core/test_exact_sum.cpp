@@ -158,12 +158,10 @@ TEST(ExactSum, IsThatOfTheIntegersOfItsParts) {
     for (const std::size_t parts : {1u, 2u, 7u, 50u})
       EXPECT_EQ(bits(sum_of_parts(terms, parts)), bits(sum(terms)));
   }
-  for (const std::vector<double>& terms : {std::vector{1, infinity, infinity},
-                                           {-infinity, 2.0},
-                                           {infinity, 0.0, -infinity},
-                                           {nan, 1.0},
-                                           {largest, largest, -largest},
-                                           {-0.0, -0.0}})
+  const std::vector<std::vector<double>> special = {{1, infinity, infinity},      {-infinity, 2},
+                                                    {infinity, 0, -infinity},     {nan, 1},
+                                                    {largest, largest, -largest}, {-0.0, -0.0}};
+  for (const std::vector<double>& terms : special)
     for (const std::size_t parts : {1u, 2u, 3u})
       EXPECT_EQ(bits(sum_of_parts(terms, parts)), bits(sum(terms)));
 }
