@@ -51,8 +51,8 @@ TEST(Runs, HaveEachElementOnceAndFewVertices) {
     expect_each_once(mesh, runs);
     std::size_t copies = 0;
     for (const auto& run : runs) copies += vertices_of(mesh, run);
-    EXPECT_LT(copies, 3.2 * static_cast<double>(mesh.vertices.size())) << name;
-    EXPECT_LT(runs.size(), 1.6 * static_cast<double>(mesh.tets.size()) / elements + 2) << name;
+    EXPECT_LT(copies, 2.6 * static_cast<double>(mesh.vertices.size())) << name;
+    EXPECT_LT(runs.size(), 1.25 * static_cast<double>(mesh.tets.size()) / elements + 2) << name;
   }
 }
 

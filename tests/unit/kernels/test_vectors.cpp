@@ -196,8 +196,8 @@ TYPED_TEST(Vocabulary, SumsOverOwnedItems) {
   const typename B::Exec exec;
   const BlockSums<B> blocks(n);
   const auto result = zeros<Doubles<B>>("test.result", 1);
-  for (const auto [first, last] : {std::pair(0, n), std::pair(0, 600), std::pair(100, 612),
-                                   std::pair(700, n), std::pair(601, 1250), std::pair(400, 400)}) {
+  for (const auto& [first, last] : {std::pair(0, n), std::pair(0, 600), std::pair(100, 612),
+                                    std::pair(700, n), std::pair(601, 1250), std::pair(400, 400)}) {
     const auto visits = zeros<Doubles<B>>("test.visits", n);
     reduce<B, 1>(exec, "test", Items(n, first, last), Visited<B>{visits, first}, blocks, result);
     const double own = host_values(exec, result)[0];
