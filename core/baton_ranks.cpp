@@ -137,7 +137,7 @@ class Table {
   std::mutex mutex_;
   std::condition_variable changed_;
   int holder_ = 0;
-  bool ended_ = false;  // those that wait are ended
+  bool ended_ = false;  // true: ranks that wait are ended
   std::exception_ptr failure_;
 };
 

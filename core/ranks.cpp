@@ -29,7 +29,7 @@ Failure failure_of(const std::function<void()>& work) {
     work();
     return {};
   } catch (const ThrownByAll&) {
-    throw;  // of a further together(), where all ranks throw it
+    throw;  // a further together() has told all ranks
   } catch (const InputError& error) {
     return {FailureKind::input, error.what()};
   } catch (const std::bad_alloc& error) {

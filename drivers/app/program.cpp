@@ -7,14 +7,12 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/failures.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
-#include <plica/drivers/app/output/peak_memory.hpp>
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
 #include <plica/drivers/app/reference/reference.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
@@ -33,7 +31,8 @@ class CommandLine {
     app_.footer(
         "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the "
         "standard error.\n"
-        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
+        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 4 no MPI for several processes, 130 "
+        "interrupted.");
     add_run();
     add_explain();
     add_scene_command("check", "check the scene, run nothing",
@@ -77,7 +76,7 @@ class CommandLine {
       for (const Override& chosen :
            settings_of_study(study_folder_, arguments_.scene, arguments_.overrides))
         arguments_.overrides.push_back(chosen);
-    return action_();
+    return with_ranks(action_, arguments_.ranks);
   }
 
   /// Prints help, the version, or what was wrong.
@@ -439,43 +438,24 @@ class CommandLine {
   std::function<ExitStatus()> action_;
 };
 
-ExitStatus failed(const std::string& text, ExitStatus status) {
-  message(coloured("error: ", Colour::red) + text);
-  return status;
-}
-
-ExitStatus guarded(const std::vector<std::string>& words, Ranks* ranks) {
+ExitStatus execute(const std::vector<std::string>& words, Ranks* ranks) {
   const bool speaks = !ranks || ranks->own() == 0;
-  const auto failed = [&](const std::string& text, ExitStatus status) {
-    return speaks ? app::failed(text, status) : status;
-  };
   CommandLine command_line;
-  try {
-    return command_line.execute(words, ranks);
-  } catch (const CLI::ParseError& error) {
-    return speaks ? command_line.explain_error(error) : ExitStatus::bad_input;
-  } catch (const InputError& error) {
-    return failed(error.what(), ExitStatus::bad_input);
-  } catch (const FolderError& error) {
-    return failed(error.what(), ExitStatus::bad_input);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return failed(error.path1().string() + ": " + error.code().message() +
-                      "; expected a place that can be read",
-                  ExitStatus::bad_input);
-  } catch (const std::bad_alloc&) {
-    return failed("memory ran out, of which the process had " + in_bytes(peak_memory()) +
-                      "; expected coarser meshes, or a machine with more",
-                  ExitStatus::failed);
-  } catch (const std::exception& error) {
-    return failed(error.what(), ExitStatus::failed);
-  }
+  const auto command = [&] {
+    try {
+      return command_line.execute(words, ranks);
+    } catch (const CLI::ParseError& error) {
+      return speaks ? command_line.explain_error(error) : ExitStatus::bad_input;
+    }
+  };
+  return guarded(command, speaks);
 }
 
 }  // namespace
 
 int program(int argc, char** argv, Ranks* ranks) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails with an error
-  ExitStatus status = guarded({argv, argv + argc}, ranks);
+  ExitStatus status = execute({argv, argv + argc}, ranks);
   if (!std::cout.flush() && status == ExitStatus::done)
     status = failed("cannot write the standard output", ExitStatus::failed);
   return static_cast<int>(status);

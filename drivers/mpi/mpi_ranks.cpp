@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <exception>
 #include <limits>
 #include <plica/core/text.hpp>
 #include <plica/drivers/mpi/mpi_ranks.hpp>
@@ -226,6 +227,11 @@ void MpiRanks::finish(std::span<MPI_Request> requests, std::span<const int> rank
     }
     if (!own_failure().empty() && since > waiting_.patience)
       throw std::runtime_error(own_failure());  // the program then ends all ranks
+    if (!said && since > waiting_.patience && std::uncaught_exceptions() > 0) {
+      if (waiting_.say)
+        waiting_.say(text("rank ", own_, " failed while others wait for it; all are ended"));
+      MPI_Abort(comm_, 1);
+    }
     if (!said && since > waiting_.patience) say_waiting(requests, ranks, what), said = true;
     if (since > std::chrono::seconds(1))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

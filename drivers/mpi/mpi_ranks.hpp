@@ -41,7 +41,8 @@ class MpiRanks final : public Ranks {
   int count_ = 1, own_ = 0, opened_ = 0, largest_tag_ = 0;
   bool device_pointers_ = false;
   Traffic traffic_;
-  std::vector<std::int64_t> keys_;  // of most(), which a failure may leave before it is done
+  std::vector<std::int64_t>
+      keys_;  // values of most(), which a failure may leave before they are there
 };
 
 }  // namespace plica

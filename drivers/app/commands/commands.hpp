@@ -26,6 +26,7 @@ enum class ExitStatus {
   failed = 1,
   bad_input = 2,      ///< bad arguments, scene or mesh, or a refused step or combination
   diverged = 3,       ///< the run was stopped; its last good state is on disk
+  no_mpi = 4,         ///< several processes were started, of a program built without MPI
   interrupted = 130,  ///< stopped by Ctrl-C; the files are complete up to the stop
 };
 
