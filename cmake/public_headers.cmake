@@ -3,7 +3,7 @@
 # time. <plica/plica.hpp> includes those of plica::plica.
 set(plica_public_headers
   core/backend.hpp core/cuts.hpp core/device_array.hpp core/error.hpp core/load.hpp core/mesh.hpp core/motion.hpp
-  core/obstacles.hpp core/precision.hpp core/problem.hpp core/reports.hpp core/selection.hpp core/transfer.hpp
+  core/obstacles.hpp core/one_rank.hpp core/precision.hpp core/problem.hpp core/ranks.hpp core/reports.hpp core/selection.hpp core/transfer.hpp
   kernels/contact/shapes.hpp
   kernels/contact/shapes/block.hpp kernels/contact/shapes/bowl.hpp kernels/contact/shapes/capsule.hpp
   kernels/contact/shapes/cone.hpp kernels/contact/shapes/cylinder.hpp kernels/contact/shapes/plane.hpp
@@ -15,5 +15,6 @@ set(plica_public_headers
   drivers/run/material_points.hpp
   drivers/run/registry.hpp drivers/run/simulation.hpp drivers/run/validate.hpp drivers/run/wait_passively.hpp)
 set(plica_public_headers_of_files meshes/files/mesh_files.hpp)
+set(plica_public_headers_of_mpi drivers/mpi/mpi_ranks.hpp drivers/mpi/waiting.hpp)
 set(plica_public_headers_of_study drivers/study/choose_cycle.hpp drivers/study/stability.hpp drivers/study/study.hpp
   drivers/study/truth.hpp drivers/study/verify.hpp)

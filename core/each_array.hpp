@@ -60,8 +60,8 @@ void each_array(T& x, const Use& use) {
     PLICA_MEMBERS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
     PLICA_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
     PLICA_MEMBERS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t)
-    PLICA_MEMBERS(36, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, y, z, a1,
-                  b1, c1, d1, e1, f1, g1, h1, i1, j1, k1)
+    PLICA_MEMBERS(37, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, y, z, a1,
+                  b1, c1, d1, e1, f1, g1, h1, i1, j1, k1, l1)
     static_assert(count == 0, "write a line above for this number of members");
 #undef PLICA_MEMBERS
   }

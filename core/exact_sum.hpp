@@ -82,6 +82,7 @@ KOKKOS_INLINE_FUNCTION double rounded_digits(std::int64_t* digit, int count, int
 class ExactSum {
  public:
   static constexpr int digits = 68;
+  static constexpr int words = digits + 1;  ///< integers of store()
 
   KOKKOS_INLINE_FUNCTION void add(double x) {
     if (!is_finite(x)) {
@@ -107,7 +108,25 @@ class ExactSum {
     return rounded_digits(digit_ + first_, end_ + 2 - first_, first_);
   }
 
+  /// Writes the sum as integers. Those of several sums may be added number by number.
+  KOKKOS_INLINE_FUNCTION void store(std::int64_t* to) const {
+    for (int i = 0; i < digits; ++i) to[i] = digit_[i];
+    to[digits] = 0;
+    for (int k = 0; k < 3; ++k)
+      if (special_ >> k & 1) to[digits] += std::int64_t{1} << room * k;
+  }
+  /// Makes the total of sums whose integers were added.
+  static KOKKOS_INLINE_FUNCTION ExactSum load(const std::int64_t* from) {
+    ExactSum total;
+    for (int i = 0; i < digits; ++i) total.digit_[i] = from[i];
+    total.first_ = 0, total.end_ = digits - 2;
+    for (int k = 0; k < 3; ++k)
+      if (from[digits] >> room * k & ((std::int64_t{1} << room) - 1)) total.special_ |= 1u << k;
+    return total;
+  }
+
  private:
+  static constexpr int room = 20;  // bits of each of the three counts of terms that are not finite
   static constexpr unsigned plus = 1, minus = 2, not_a_number = 4;
   std::int64_t digit_[digits] = {};
   int first_ = digits, end_ = 0;  // digits that may differ from 0

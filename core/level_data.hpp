@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <memory>
 #include <optional>
 #include <plica/core/fields.hpp>
 #include <plica/core/load.hpp>
@@ -140,6 +141,9 @@ struct ViscousHistory {
   Scalars<B> relaxed;
 };
 
+template <class B>
+struct RankLevel;
+
 /// One resolution of the body: constants, state, work arrays, and the exchange of states with its
 /// neighbour levels. Members that a scene does not need stay empty.
 template <class B>
@@ -156,6 +160,8 @@ struct LevelData {
   NodalWork<B> nodal;        ///< work arrays of nodal elements
   ViscousHistory<B> stress;  ///< memory of viscous materials
   ElementFlags<B> flags;     ///< inverted elements, where none is allowed
+  /// Part that this rank has of the level, see kernels/halo.hpp; none: one process has all of it
+  std::shared_ptr<const RankLevel<B>> ranks;
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, empty on the finest

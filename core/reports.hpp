@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
@@ -159,6 +160,16 @@ struct Diagnosis {
   std::string reason;        ///< details in words, such as those of a solver
   std::string remedy;        ///< remedy that is most likely to help
   std::string text() const;  ///< returns one sentence with all of it
+};
+
+/// Shares of several ranks in a body, and the messages between them.
+struct RankReport {
+  int count = 1;              ///< number of ranks
+  double imbalance = 1;       ///< largest number of elements of a rank over the mean
+  std::int64_t messages = 0;  ///< messages of all ranks so far
+  std::int64_t bytes = 0;     ///< size of these
+  double waited = 0;          ///< time that a rank has waited for others, mean [s]
+  double most_waited = 0;     ///< time that a rank has waited for others, maximum [s]
 };
 
 /// Outcome of a cut, or of all cuts of a simulation so far.

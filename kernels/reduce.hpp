@@ -3,6 +3,7 @@
 #include <plica/core/exact_sum.hpp>
 #include <plica/core/fields.hpp>
 #include <plica/core/launch.hpp>
+#include <plica/core/ranks.hpp>
 #include <type_traits>
 
 namespace plica {
@@ -83,12 +84,16 @@ class BlockSums {
   static constexpr int widest = 16;
   using View = Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>;
   BlockSums() = default;
-  explicit BlockSums(int items)
-      : sums_(zeros<View>("plica::block_sums", (items + block - 1) / block + 1)) {}
+  /// @param ranks  ranks over which sums are taken; null: this process alone. All ranks then take
+  ///               them in the same order
+  explicit BlockSums(int items, Ranks* ranks = nullptr)
+      : sums_(zeros<View>("plica::block_sums", (items + block - 1) / block + 1)), ranks_(ranks) {}
   const View& view() const { return sums_; }
+  Ranks* ranks() const { return ranks_; }
 
  private:
   View sums_;
+  Ranks* ranks_ = nullptr;
 };
 
 /// Default for the work that follows a sum in the same launch: there is none.
@@ -260,6 +265,19 @@ template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
+/// Computes result(k) = sum over the blocks of all ranks, as sum_blocks() does for those of one.
+/// Waits.
+template <class B>
+void sum_over_ranks(const typename B::Exec& exec, int count, int n, int maxima,
+                    const BlockSums<B>& blocks, const Doubles<B>& result);
+
+/// Kernel of work that needs a sum alone.
+template <class Then>
+struct AfterSum {
+  Then then;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const { then(); }
+};
+
 /// Computes result(k) = sum over owned items i of term(i)[k]. Terms of the other items are computed
 /// too, for what they write. The sums of blocks depend on their items alone; their total is exact
 /// but for one rounding, so that it does not depend on the order of the blocks. term: Tally
@@ -271,17 +289,26 @@ void sum_blocks(const typename B::Exec& exec, const char* label, int count, int 
 ///   blocks    sum of block 0        sum of block 1         ...         in any order
 ///                  \_______________________|__________________/
 ///   result                       their sum, then `then`
+///
+/// On several ranks each has whole blocks, and the host adds their sums up.
 template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
 void reduce(const typename B::Exec& exec, const char* label, const Items& items, const Term& term,
             const BlockSums<B>& blocks, const Doubles<B>& result, const Then& then = {}) {
   static_assert(N <= BlockSums<B>::widest);
   const ItemBlocks all{items};
   const int count = all.owned();
-  const bool alone = count == 1 && all.count() == 1;  // the block's sum is the result
+  Ranks* const ranks = blocks.ranks();
+  const bool alone = !ranks && count == 1 && all.count() == 1;  // the block's sum is the result
   const typename BlockSums<B>::View whole(result.data(), 1), &parts = alone ? whole : blocks.view();
   launch_blocks<B>(exec, label, all.count(),
                    SumOfBlock<B, N, Term, Tally, Then>{all, term, parts, alone, then});
   if (alone) return;
+  if (ranks) {
+    sum_over_ranks<B>(exec, count, N, Tally::maxima, blocks, result);
+    if constexpr (!std::is_same_v<Then, Nothing>)
+      launch(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, 1), AfterSum<Then>{then});
+    return;
+  }
   if constexpr (std::is_same_v<Then, Nothing>)
     sum_blocks<B>(exec, label, count, N, Tally::maxima, parts, result);
   else

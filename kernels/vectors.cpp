@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/kernels/vectors.hpp>
+#include <span>
+#include <vector>
 
 namespace plica {
 
@@ -84,10 +87,12 @@ template <class B>
 struct FillFromHash {
   Scalars<B> inverse_mass;
   Vectors<B> x;
+  Indices<B> number;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double value = inverse_mass(a) > 0 ? hashed(a, k) : 0.0;
+      const int v = number.extent(0) > 0 ? number(a) : a;
+      const double value = inverse_mass(a) > 0 ? hashed(v, k) : 0.0;
       x(a, k) = static_cast<typename B::Real>(value);
       sum += value * value;
     }
@@ -112,6 +117,33 @@ template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result) {
   launch_blocks<B>(exec, label, n, SumBlocks<B>{{count, blocks}, n - maxima, result});
+}
+
+template <class B>
+void sum_over_ranks(const typename B::Exec& exec, int count, int n, int maxima,
+                    const BlockSums<B>& blocks, const Doubles<B>& result) {
+  constexpr int widest = BlockSums<B>::widest;
+  launch_gathered<typename B::Exec>();
+  std::vector<double> sums(static_cast<std::size_t>(count * widest));
+  fields::download(exec, sums.data(), blocks.view().data(), sums.size() * sizeof(double));
+  const auto at = [&](int b, int k) { return sums[static_cast<std::size_t>(b * widest + k)]; };
+  std::vector<double> total(static_cast<std::size_t>(n), 0.0);
+  std::vector<std::int64_t> integers(static_cast<std::size_t>((n - maxima) * ExactSum::words));
+  for (int k = 0; k < n - maxima; ++k) {
+    ExactSum sum;
+    for (int b = 0; b < count; ++b) sum.add(at(b, k));
+    sum.store(integers.data() + k * ExactSum::words);
+  }
+  if (n > maxima) blocks.ranks()->sum(integers);
+  for (int k = 0; k < n - maxima; ++k)
+    total[static_cast<std::size_t>(k)] =
+        ExactSum::load(integers.data() + k * ExactSum::words).take();
+  const std::span most(total.data() + n - maxima, static_cast<std::size_t>(maxima));
+  for (int k = n - maxima; k < n; ++k)
+    for (int b = 0; b < count; ++b)
+      total[static_cast<std::size_t>(k)] = std::max(total[static_cast<std::size_t>(k)], at(b, k));
+  if (maxima > 0) blocks.ranks()->most(most);
+  fields::upload<typename B::Memory>(result.data(), total.data(), total.size() * sizeof(double));
 }
 
 namespace vectors {
@@ -165,14 +197,19 @@ void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>
 
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
-                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result) {
-  reduce<B, 1>(exec, label, length_of<B>(x), FillFromHash<B>{inverse_mass, x}, blocks, result);
+                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result,
+                    const std::optional<Items>& owned, const Indices<B>& number) {
+  reduce<B, 1>(exec, label, owned.value_or(length_of<B>(x)),
+               FillFromHash<B>{inverse_mass, x, number}, blocks, result);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                              \
   template void sum_blocks<Backend<Real, Exec>>(const Exec&, const char*, int, int, int,           \
                                                 const BlockSums<Backend<Real, Exec>>::View&,       \
                                                 const Doubles<Backend<Real, Exec>>&);              \
+  template void sum_over_ranks<Backend<Real, Exec>>(const Exec&, int, int, int,                    \
+                                                    const BlockSums<Backend<Real, Exec>>&,         \
+                                                    const Doubles<Backend<Real, Exec>>&);          \
   template void vectors::add<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real,     \
                                                   const Real*, Real*);                             \
   template void vectors::combine<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, \
@@ -199,7 +236,8 @@ void fill_from_hash(const typename B::Exec& exec, const char* label, const Scala
   template void fill_from_hash<Backend<Real, Exec>>(                                               \
       const Exec&, const char*, const Scalars<Backend<Real, Exec>>&,                               \
       const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,                  \
-      const Doubles<Backend<Real, Exec>>&);
+      const Doubles<Backend<Real, Exec>>&, const std::optional<Items>&,                            \
+      const Indices<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/core/pack.hpp>
@@ -267,8 +268,11 @@ KOKKOS_INLINE_FUNCTION double hashed(std::int64_t a, int k) {
 }
 /// Fills x with a start vector that has a part in every mode, and computes result(0) = x . x. Its
 /// numbers are hashed() ones; they are 0 where the inverse mass is 0.
+/// @param owned   vertices that are summed over; none: all
+/// @param number  number that is hashed for each vertex; empty: its own
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
-                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result);
+                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result,
+                    const std::optional<Items>& owned = {}, const Indices<B>& number = {});
 
 }  // namespace plica

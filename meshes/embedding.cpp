@@ -8,6 +8,7 @@
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <unsupported/Eigen/BVH>
+#include <utility>
 
 namespace plica {
 
@@ -281,6 +282,22 @@ Embedding embed(const std::vector<Point>& points, const TetLocator& locator, Out
 
 Embedding embed(const std::vector<Point>& points, const TetMesh& mesh, Outside outside) {
   return embed(points, TetLocator(mesh), outside);
+}
+
+std::vector<int> vertices_at(const std::vector<Point>& points, const TetMesh& mesh) {
+  std::vector<int> order(points.size()), at(points.size(), -1);
+  std::iota(order.begin(), order.end(), 0);
+  const auto before = [](const Point& a, const Point& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  const auto of = [&](int p) -> const Point& { return points[static_cast<std::size_t>(p)]; };
+  std::ranges::sort(order, before, of);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto found = std::ranges::equal_range(order, mesh.vertices[v], before, of);
+    for (const int p : found)
+      if (std::exchange(at[static_cast<std::size_t>(p)], static_cast<int>(v)) >= 0) return {};
+  }
+  return std::ranges::count(at, -1) > 0 ? std::vector<int>{} : at;
 }
 
 }  // namespace plica

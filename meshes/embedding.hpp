@@ -93,6 +93,9 @@ struct Embedding {
   double largest_distance_over_edge = 0.0;
 };
 
+/// Returns the vertex at the very place of each point; empty: a point is at none, or at several.
+std::vector<int> vertices_at(const std::vector<Point>& points, const TetMesh& mesh);
+
 /// Embeds points in the mesh of a locator.
 /// @param points   finite [m]; InputError otherwise, with the point's index
 /// @param locator  locator of the mesh; build it once when several sets of points are embedded in

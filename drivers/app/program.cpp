@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/failures.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
-#include <plica/drivers/app/output/peak_memory.hpp>
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
 #include <plica/drivers/app/reference/reference.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
@@ -31,10 +31,10 @@ class CommandLine {
     app_.footer(
         "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the "
         "standard error.\n"
-        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
+        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 4 no MPI for several processes, 130 "
+        "interrupted.");
     add_run();
-    add_study_option(add_scene_command("explain", "say what a run of the scene would do",
-                                       [this] { return explain(arguments_); }));
+    add_explain();
     add_scene_command("check", "check the scene, run nothing",
                       [this] { return check(arguments_); });
     add_study();
@@ -50,8 +50,9 @@ class CommandLine {
   }
 
   /// Runs the command. Throws CLI::ParseError for bad words, --help and --version.
-  ExitStatus execute(std::vector<std::string> words) {
+  ExitStatus execute(std::vector<std::string> words, Ranks* ranks) {
     arguments_.words = words;
+    arguments_.ranks = ranks && ranks->count() > 1 ? ranks : nullptr;
     const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
     std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through),
                  is_kokkos);
@@ -65,12 +66,17 @@ class CommandLine {
       arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
     if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
       throw CLI::RequiredError("SCENE, or --resume FOLDER,");
+    if (arguments_.ranks && !app_.got_subcommand("run"))
+      throw InputError(
+          fmt::format("plica {} is one process, and {} were started; expected plica "
+                      "run, or one process",
+                      app_.get_subcommands().front()->get_name(), arguments_.ranks->count()));
     if (app_.got_subcommand("stability")) check_stability();
     if (!study_folder_.empty())
       for (const Override& chosen :
            settings_of_study(study_folder_, arguments_.scene, arguments_.overrides))
         arguments_.overrides.push_back(chosen);
-    return action_();
+    return with_ranks(action_, arguments_.ranks);
   }
 
   /// Prints help, the version, or what was wrong.
@@ -154,6 +160,17 @@ class CommandLine {
         ->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(thread_count.min, thread_count.max));
+  }
+
+  void add_explain() {
+    CLI::App* command = add_scene_command("explain", "say what a run of the scene would do",
+                                          [this] { return explain(arguments_); });
+    add_study_option(command);
+    command
+        ->add_option("--ranks", arguments_.ranks_planned,
+                     "say also what each of N ranks would have and send")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
   }
 
   void add_run() {
@@ -421,39 +438,24 @@ class CommandLine {
   std::function<ExitStatus()> action_;
 };
 
-ExitStatus failed(const std::string& text, ExitStatus status) {
-  message(coloured("error: ", Colour::red) + text);
-  return status;
-}
-
-ExitStatus guarded(const std::vector<std::string>& words) {
+ExitStatus execute(const std::vector<std::string>& words, Ranks* ranks) {
+  const bool speaks = !ranks || ranks->own() == 0;
   CommandLine command_line;
-  try {
-    return command_line.execute(words);
-  } catch (const CLI::ParseError& error) {
-    return command_line.explain_error(error);
-  } catch (const InputError& error) {
-    return failed(error.what(), ExitStatus::bad_input);
-  } catch (const FolderError& error) {
-    return failed(error.what(), ExitStatus::bad_input);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return failed(error.path1().string() + ": " + error.code().message() +
-                      "; expected a place that can be read",
-                  ExitStatus::bad_input);
-  } catch (const std::bad_alloc&) {
-    return failed("memory ran out, of which the process had " + in_bytes(peak_memory()) +
-                      "; expected coarser meshes, or a machine with more",
-                  ExitStatus::failed);
-  } catch (const std::exception& error) {
-    return failed(error.what(), ExitStatus::failed);
-  }
+  const auto command = [&] {
+    try {
+      return command_line.execute(words, ranks);
+    } catch (const CLI::ParseError& error) {
+      return speaks ? command_line.explain_error(error) : ExitStatus::bad_input;
+    }
+  };
+  return guarded(command, speaks);
 }
 
 }  // namespace
 
-int program(int argc, char** argv) {
+int program(int argc, char** argv, Ranks* ranks) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails with an error
-  ExitStatus status = guarded({argv, argv + argc});
+  ExitStatus status = execute({argv, argv + argc}, ranks);
   if (!std::cout.flush() && status == ExitStatus::done)
     status = failed("cannot write the standard output", ExitStatus::failed);
   return static_cast<int>(status);

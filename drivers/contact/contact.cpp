@@ -74,6 +74,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   choose_held(surface.held);
   make_laws(options, surface);
   choose_whole(options.whole_surface, surface.surface);
+  if (surface.kept) keep_points(surface);
   if (couples()) connect(surface.surface);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge),
@@ -124,6 +125,18 @@ void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& su
   const double edge = mean_surface_edge(surface);
   for (const auto& obstacle : obstacles_)
     whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < wide * edge));
+}
+
+/// Leaves out the points that other ranks have; the laws are those of the whole surface.
+template <class B>
+void Contact<B>::keep_points(const TouchingSurface& surface) {
+  points_ = static_cast<int>(surface.kept->size());
+  if (!surface.counted.empty())
+    counted_ = to_device<Indices<B>>("contact.counted", surface.counted);
+  if (surface.body.empty()) return;
+  std::vector<int> body;
+  for (const int p : *surface.kept) body.push_back(surface.body[static_cast<std::size_t>(p)]);
+  body_ = to_device<Indices<B>>("contact.body", body);
 }
 
 template <class B>
@@ -297,7 +310,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.pairs = pairs_;
   records.faces = whole() > 0 ? mesh_.triangles : 0;
   records.reach = records.edge = static_cast<Real>(reach_);
-  records.law = laws_, records.body = body_;
+  records.law = laws_, records.body = body_, records.counted = counted_;
   records.mesh = mesh_, records.grasps = grasps_, records.attached = attached_;
   const auto slots = static_cast<std::size_t>(records.slots());
   const auto vectors = [&](const char* name) { return zeros<Vectors<B>>(name, slots); };

@@ -66,6 +66,8 @@ struct TouchingSurface {
   std::vector<std::vector<int>> held;
   double edge = 0;  ///< mean edge of all bodies [m]
   double size = 0;  ///< size of the whole surface [m]; a point deeper in an obstacle is lost
+  std::optional<std::vector<int>> kept = {};  ///< points that this rank has; none: all
+  std::vector<int> counted = {};  ///< [kept] 1: the rank owns the point; empty: it owns all
 };
 
 /// Contact of the body's surface with all obstacles and with itself: the part that all levels
@@ -147,7 +149,7 @@ class Contact {
   double stiffness_ = 0, damping_ = 0, reach_, deepest_;
   Indices<B> lost_;  ///< [1] last lost point + 1, see DepthWatch
   typename ContactRecords<B>::Laws laws_;
-  Indices<B> body_;
+  Indices<B> body_, counted_;
   Doubles<B> memory_;
   Grasps<B> grasps_;
   Attachments<B> attached_;
@@ -162,6 +164,7 @@ class Contact {
   void make_memory(const ContactOptions& options);
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
+  void keep_points(const TouchingSurface& surface);
   void connect(const TriangleSurface& surface);
   void connect_edges(const TriangleSurface& surface);
 };

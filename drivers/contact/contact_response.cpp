@@ -6,6 +6,7 @@
 #include <plica/kernels/contact/explicit_contact.hpp>
 #include <plica/kernels/contact/implicit_contact.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
+#include <plica/kernels/halo.hpp>
 #include <utility>
 
 namespace plica {
@@ -33,6 +34,8 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
       records_(own_),
       maker_(std::max(records_.slots(), level.surface.touched)),
       blocks_(std::max(records_.slots(), records_.points)),
+      common_(level.ranks ? BlockSums<B>(records_.slots(), ranks_of<B>(level)) : blocks_),
+      sums_of_records_(records_.slots(), ranks_of<B>(level)),
       free_(
           zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(level.model.vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer",
@@ -109,9 +112,8 @@ template <class B>
 template <class End>
 void ContactResponse<B>::end(const Exec& exec, const char* label, const End& kernel) const {
   if (!contact_->rubs()) return over_list<B>(exec, records_.list, label, kernel);
-  reduce<B, 1, TermOfList<B, End>>(exec, label, records_.list.most,
-                                   {records_.list.count.data(), kernel}, blocks_, sums_,
-                                   AddWork<B>{sums_, work_});
+  sum_records_later<B, 1>(exec, records_, label, kernel, sums_of_records_, sums_,
+                          AddWork<B>{sums_, work_});
 }
 
 template <class B>
@@ -167,9 +169,8 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level
                                      const State<B>& state, double time,
                                      const CarriedImpulse& of) const {
   const auto add = [&](int number, const auto& term) {
-    reduce<B, 6, TermOfList<B, std::decay_t<decltype(term)>>>(
-        exec, "plica::contact_wrench", records_.list.most, {records_.list.count.data(), term},
-        blocks_, sums_, AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
+    sum_records_later<B, 6>(exec, records_, "plica::contact_wrench", term, sums_of_records_, sums_,
+                            AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
   };
   for (int o = 0; o < contact_->obstacles(); ++o)
     add(o, ObstacleWrench<B>{level.surface, state.u, records_, o, contact_->place(o, time)});
@@ -180,8 +181,8 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level
 template <class B>
 double ContactResponse<B>::energy(const Exec& exec, const LevelData<B>& level, double time) const {
   const RecordLater<B> at = later(exec, level, time);
-  sum_list<B, 1>(exec, records_.list, "plica::contact_energy", ContactEnergy<B>{at}, blocks_,
-                 sums_);
+  sum_records<B, 1>(exec, records_, "plica::contact_energy", ContactEnergy<B>{at}, sums_of_records_,
+                    sums_);
   return host_values(exec, sums_)[0];
 }
 
@@ -206,8 +207,8 @@ template <class B>
 std::vector<double> ContactResponse<B>::slipping(const Exec& exec) const {
   std::vector<double> all;
   for (int o = 0; o < contact_->obstacles(); ++o) {
-    sum_list<B, 2>(exec, records_.list, "plica::contact_slips", CountSlips<B>{records_, o}, blocks_,
-                   sums_);
+    sum_records<B, 2>(exec, records_, "plica::contact_slips", CountSlips<B>{records_, o},
+                      sums_of_records_, sums_);
     const auto counts = host_values(exec, sums_);
     all.push_back(counts[0] > 0 ? counts[1] / counts[0] : 0);
   }
@@ -242,7 +243,7 @@ std::vector<double> ContactResponse<B>::depths(const Exec& exec, const LevelData
   std::vector<double> all;
   for (int o = 0; o < contact_->obstacles() + (contact_->has_pairs() ? 1 : 0); ++o) {
     sum_list<B, 1, DepthInPartner<B>, Sums<1, 1>>(exec, records_.list, "plica::contact_depth",
-                                                  {at, o}, blocks_, sums_);
+                                                  {at, o}, common_, sums_);
     all.push_back(host_values(exec, sums_)[0]);
   }
   return all;
@@ -378,8 +379,8 @@ void ContactResponse<B>::name_fields(Archive<B>& archive, const std::string& nam
   archive.field(name + "contact: how much touches", records_.touching);
   archive.field(name + "contact: carried impulses", carried_impulse_);
   archive.field(name + "contact: friction's work", work_);
-  archive.owns(own_, maker_.used, maker_.summed, blocks_.view(), product_, free_, answer_, sums_,
-               impulse_);
+  archive.owns(own_, maker_.used, maker_.summed, blocks_.view(), common_.view(),
+               sums_of_records_.integers(), product_, free_, answer_, sums_, impulse_);
   if (search_) search_->name_fields(archive);
 }
 

@@ -8,6 +8,7 @@
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/contact/contact.hpp>
 #include <plica/kernels/contact/contact_list.hpp>
+#include <plica/kernels/contact/list_sums.hpp>
 
 namespace plica {
 
@@ -80,6 +81,8 @@ class ContactResponse {
   /// Adds the last forces to the impulses, for a method that carries forces from step to step.
   void add_impulse(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,
                    const CarriedImpulse& of) const;
+  /// Finishes the sums of a macro step over all ranks: impulses, and the work of friction.
+  void finish_sums(const Exec& exec) const { sums_of_records_.finish(exec); }
   /// Returns the impulses and angular impulses: [6 obstacles, then 6 bodies] N s and N m s.
   const Doubles<B>& impulse() const { return impulse_; }
   /// Returns the energy stored in all contact of the level's state [J]. Waits.
@@ -152,7 +155,9 @@ class ContactResponse {
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< only where the surface may touch itself
   ListMaker<B> maker_;
-  BlockSums<B> blocks_;
+  BlockSums<B> blocks_;  ///< block sums of this rank's own records
+  BlockSums<B> common_;  ///< block sums of all ranks' records
+  ListSums<B> sums_of_records_;
   Vectors<B> free_, answer_;  ///< [vertices][3] m/s^2, accelerations on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;

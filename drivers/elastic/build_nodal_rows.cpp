@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <map>
 #include <plica/drivers/elastic/build_nodal_rows.hpp>
 #include <plica/drivers/elastic/vertex_shares.hpp>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -121,21 +122,30 @@ class Domains {
   }
 };
 
+/// Vertices whose domains have rows: from `first` to before `last`.
+struct RowVertices {
+  int first, last;
+  bool has(const Domain& domain) const { return domain.vertex >= first && domain.vertex < last; }
+};
+
 /// Returns the domain of each row. Rows are sorted by block of vertices, in a block by region, and
 /// in each region of a block as in `domains`, but for windows of rows: in a window domains with
 /// more surface pairs come first, then those with more pairs.
+/// @param own    vertices whose domains have rows; the first one begins a block
 /// @param block  number of vertices of a block
-std::vector<int> row_order(const std::vector<Domain>& domains, int block, int height) {
+std::vector<int> row_order(const std::vector<Domain>& domains, const RowVertices& own, int block,
+                           int height) {
   const auto place = [&](int d) {
     const Domain& domain = domains[index_of(d)];
-    return std::pair(domain.vertex / block, domain.region);
+    return std::pair((domain.vertex - own.first) / block, domain.region);
   };
   const auto pairs = [&](int d) {
     const Domain& domain = domains[index_of(d)];
     return std::pair(domain.surface_pairs(), domain.pairs.size());
   };
-  std::vector<int> sorted(domains.size()), order;
-  std::iota(sorted.begin(), sorted.end(), 0);
+  std::vector<int> sorted, order;
+  for (std::size_t d = 0; d < domains.size(); ++d)
+    if (own.has(domains[d])) sorted.push_back(static_cast<int>(d));
   std::ranges::stable_sort(sorted, {}, place);
   const auto window = static_cast<std::ptrdiff_t>(32 * height);
   for (auto begin = sorted.begin(); begin != sorted.end();) {
@@ -161,12 +171,17 @@ class SlicedRows {
   static constexpr auto H = static_cast<std::size_t>(Rows::height);
 
  public:
-  explicit SlicedRows(const std::vector<Domain>& domains)
+  /// Makes the rows of the domains of own vertices. The slots of `others` come behind theirs.
+  SlicedRows(const std::vector<Domain>& domains, const RowVertices& own,
+             const std::vector<int>& others = {})
       : domains_(domains),
-        order_(row_order(domains, vertex_block<B>, Rows::height)),
+        order_(row_order(domains, own, vertex_block<B>, Rows::height)),
+        others_(others),
         slot_of_(domains.size()) {
     for (std::size_t s = 0; s < order_.size(); ++s)
       if (order_[s] >= 0) slot_of_[index_of(order_[s])] = static_cast<int>(s);
+    for (std::size_t i = 0; i < others_.size(); ++i)
+      slot_of_[index_of(others_[i])] = static_cast<int>(order_.size() + i);
     for (std::size_t begin = 0; begin < order_.size(); begin += H) {
       std::ptrdiff_t pairs = 0, surface_pairs = 0;
       for (std::size_t s = begin; s < begin + H; ++s) {
@@ -181,7 +196,7 @@ class SlicedRows {
   Rows on_device(std::size_t vertices, bool smoothed) const {
     Rows rows;
     rows.slices = static_cast<int>(order_.size() / H),
-    rows.domains = static_cast<int>(domains_.size());
+    rows.domains = static_cast<int>(domains_.size() - others_.size());
     rows.first = to_device<Indices<B>>("rows.first", first_);
     rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface_);
     add_slots(rows, vertices);
@@ -206,9 +221,12 @@ class SlicedRows {
     return rows;
   }
 
+  int slots() const { return static_cast<int>(order_.size()); }
+  int slot_of(int domain) const { return slot_of_[index_of(domain)]; }
+
  private:
   const std::vector<Domain>& domains_;
-  std::vector<int> order_, slot_of_;
+  std::vector<int> order_, others_, slot_of_;
   std::vector<int> first_{0}, first_surface_{0};  // [slices + 1] first column of each slice
 
   /// Arrays of pairs: each pair of a row stands in a column of its slice.
@@ -260,51 +278,109 @@ class SlicedRows {
       inverse.push_back(d.vertex >= 0 ? static_cast<Real>(1 / d.volume) : Real(0));
     }
     rows.region = to_device<Indices<B>>("rows.region", region);
+    rows.shares = vertex_shares<B>(vertex, vertices);
+    for (const int d : others_) vertex.push_back(domains_[index_of(d)].vertex);
     rows.vertex = to_device<Indices<B>>("rows.vertex", vertex);
     rows.volume = to_device<Scalars<B>>("rows.volume", volume);
     rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse);
-    rows.shares = vertex_shares<B>(vertex, vertices);
   }
 };
+
+}  // namespace
+
+namespace {
+
+template <class B>
+void add_constants(NodalRows<B>& rows, const NodalConstants& constants) {
+  using Real = typename B::Real;
+  const auto on_device = [](const char* name, const std::vector<double>& values) {
+    return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
+  };
+  std::vector<double> material;
+  for (const std::vector<double>& of_region : constants.material)
+    material.insert(material.end(), of_region.begin(), of_region.end());
+  rows.constants = on_device("rows.constants", material);
+  rows.stabiliser = on_device("rows.stabiliser", constants.stabiliser);
+  if (!constants.bulk_excess.empty())
+    rows.bulk_excess = on_device("rows.excess", constants.bulk_excess);
+  if (!constants.damping.empty()) rows.damping = on_device("rows.damping", constants.damping);
+}
+
+/// Returns which slots go to each rank: those of own domains with a neighbour there.
+template <class B>
+HaloRows halo_of_slots(const std::vector<Domain>& domains, const std::vector<int>& others,
+                       const SlicedRows<B>& rows, const RankPart& part) {
+  const auto owner = [&](int d) { return part.owner[index_of(domains[index_of(d)].vertex)]; };
+  const RowVertices own{part.first_owned, part.last_owned};
+  std::map<int, std::vector<int>> sent;
+  std::map<int, int> received;
+  for (std::size_t d = 0; d < domains.size(); ++d) {
+    if (!own.has(domains[d])) continue;
+    std::set<int> users;
+    for (const Pair& pair : domains[d].pairs)
+      if (!own.has(domains[index_of(pair.neighbour)])) users.insert(owner(pair.neighbour));
+    for (const int q : users) sent[q].push_back(rows.slot_of(static_cast<int>(d)));
+  }
+  for (const int d : others) ++received[owner(d)];
+  HaloRows halo;
+  halo.own = rows.slots();
+  for (const auto& [q, slots] : sent) {  // ranks that receive are those that send
+    halo.rank.push_back(q);
+    halo.sent.insert(halo.sent.end(), slots.begin(), slots.end());
+    halo.first_sent.push_back(static_cast<int>(halo.sent.size()));
+    halo.first_received.push_back(halo.first_received.back() + received[q]);
+  }
+  return halo;
+}
 
 }  // namespace
 
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants,
                               const std::vector<char>& given) {
-  using Real = typename B::Real;
-  const auto on_device = [](const char* name, const std::vector<double>& values) {
-    return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
-  };
   const std::vector<Domain> domains = Domains(mesh, given).all;
-  const bool smoothed = !constants.bulk_excess.empty();
-  NodalRows<B> rows = SlicedRows<B>(domains).on_device(mesh.vertices.size(), smoothed);
-  std::vector<double> material;
-  for (const std::vector<double>& of_region : constants.material)
-    material.insert(material.end(), of_region.begin(), of_region.end());
-  rows.constants = on_device("rows.constants", material);
-  rows.stabiliser = on_device("rows.stabiliser", constants.stabiliser);
-  if (smoothed) rows.bulk_excess = on_device("rows.excess", constants.bulk_excess);
-  if (!constants.damping.empty()) rows.damping = on_device("rows.damping", constants.damping);
+  const SlicedRows<B> sliced(domains, {0, static_cast<int>(mesh.vertices.size())});
+  NodalRows<B> rows = sliced.on_device(mesh.vertices.size(), !constants.bulk_excess.empty());
+  add_constants(rows, constants);
   return rows;
+}
+
+template <class B>
+NodalPart<B> build_nodal_part(const TetMesh& mesh, const NodalConstants& constants,
+                              const std::vector<char>& given, const RankPart& part) {
+  const std::vector<Domain> domains = Domains(mesh, given).all;
+  const RowVertices own{part.first_owned, part.last_owned};
+  std::vector<int> others;
+  for (std::size_t d = 0; d < domains.size(); ++d)
+    if (!own.has(domains[d])) others.push_back(static_cast<int>(d));
+  std::ranges::stable_sort(
+      others, {}, [&](int d) { return part.owner[index_of(domains[index_of(d)].vertex)]; });
+  const SlicedRows<B> sliced(domains, own, others);
+  NodalPart<B> made{sliced.on_device(mesh.vertices.size(), !constants.bulk_excess.empty()),
+                    halo_of_slots<B>(domains, others, sliced, part)};
+  add_constants(made.rows, constants);
+  return made;
 }
 
 template <class B>
 NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
   NodalWork<B> work;
-  const auto n = static_cast<std::size_t>(rows.slots());
+  const auto n = rows.vertex.extent(0);  // with those of other ranks
   work.near = zeros<Scalars<B>>("plica::nodal.near", 8 * n);
   work.records = zeros<Scalars<B>>("plica::nodal.records", 12 * n);
   if (rows.bulk_excess.extent(0) == 0) return work;
   work.ratio = zeros<Scalars<B>>("plica::nodal.ratio", 2 * n);
-  work.pressure = zeros<Scalars<B>>("plica::nodal.pressure", 2 * n);
+  work.pressure =
+      zeros<Scalars<B>>("plica::nodal.pressure", 2 * static_cast<std::size_t>(rows.slots()));
   return work;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                            \
-  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>( \
-      const TetMesh&, const NodalConstants&, const std::vector<char>&);          \
-  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
+#define PLICA_INSTANTIATE(Real, Exec)                                                    \
+  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>(         \
+      const TetMesh&, const NodalConstants&, const std::vector<char>&);                  \
+  template NodalPart<Backend<Real, Exec>> build_nodal_part<Backend<Real, Exec>>(         \
+      const TetMesh&, const NodalConstants&, const std::vector<char>&, const RankPart&); \
+  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(          \
       const NodalRows<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_PRECISION(PLICA_INSTANTIATE)
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/mesh.hpp>
 #include <plica/core/nodal_rows.hpp>
+#include <plica/core/rank_part.hpp>
 #include <vector>
 
 namespace plica {
@@ -21,6 +22,19 @@ struct NodalConstants {
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants,
                               const std::vector<char>& given = {});
+
+/// Rows of one rank, and the slots that it exchanges.
+template <class B>
+struct NodalPart {
+  NodalRows<B> rows;  ///< rows of owned vertices; slots of other ranks are behind their slots
+  HaloRows slots;
+};
+
+/// Returns the rows of the vertices that a rank owns; `mesh` has all tetrahedra at these. Slots of
+/// other vertices come from their owners: by rank, then by region and vertex.
+template <class B>
+NodalPart<B> build_nodal_part(const TetMesh& mesh, const NodalConstants& constants,
+                              const std::vector<char>& given, const RankPart& part);
 
 /// Allocates the work arrays that kernels over these rows need.
 template <class B>

@@ -258,9 +258,11 @@ class PatchBuilder {
 
 template <class B>
 Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
-                         const std::vector<double>& damping) {
-  const auto runs = element_runs(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
-  const PatchBuilder<B> builder(mesh, runs);
+                         const std::vector<double>& damping,
+                         const std::vector<std::vector<int>>* runs) {
+  std::vector<std::vector<int>> all;
+  if (!runs) all = element_runs(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
+  const PatchBuilder<B> builder(mesh, runs ? *runs : all);
   Patches<B> patches = builder.on_device();
   patches.constants = builder.of_regions("patches.constants",
                                          [&](std::size_t r) { return std::span(constants[r]); });
@@ -270,9 +272,10 @@ Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<doub
   return patches;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                       \
-  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>( \
-      const TetMesh&, const std::vector<std::vector<double>>&, const std::vector<double>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                      \
+  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>(                \
+      const TetMesh&, const std::vector<std::vector<double>>&, const std::vector<double>&, \
+      const std::vector<std::vector<int>>*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -17,8 +17,10 @@ std::vector<std::vector<int>> element_runs(const TetMesh& mesh, int elements, in
 /// @param constants  constants of the material per region, the same number in every region
 /// @param damping    stiffness-proportional damping per region [s]; one entry where the mesh names
 ///                   no region; empty: no damping
+/// @param runs       tetrahedra of each patch; null: element_runs(), all of them
 template <class B>
 Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
-                         const std::vector<double>& damping = {});
+                         const std::vector<double>& damping = {},
+                         const std::vector<std::vector<int>>* runs = nullptr);
 
 }  // namespace plica

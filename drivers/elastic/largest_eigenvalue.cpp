@@ -5,6 +5,7 @@
 #include <plica/drivers/elastic/largest_eigenvalue.hpp>
 #include <plica/kernels/elastic/stiffness_lanczos.hpp>
 #include <plica/kernels/followers.hpp>
+#include <plica/kernels/halo.hpp>
 #include <utility>
 
 namespace plica {
@@ -17,7 +18,8 @@ double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vec
                 const Vectors<B>& y, const BlockSums<B>& blocks, const Doubles<B>& result) {
   follow_masters(exec, K.level.model, x);
   K.elasticity.tangent(exec, K.level, K.u, x, K.damping_scale);
-  reduce<B, 1>(exec, "plica::lanczos_stiffness", K.level.model.vertices,
+  complete_shares<B>(exec, K.level);
+  reduce<B, 1>(exec, "plica::lanczos_stiffness", vertices_of<B>(K.level),
                StiffnessProduct<B>{K.level.model, K.level.partial, x, y}, blocks, result);
   return host_values(exec, result)[0];
 }
@@ -39,7 +41,7 @@ class Lanczos {
 
  public:
   Lanczos(const Exec& exec, const VectorMap<B>& A, const StiffnessAt<B>& K)
-      : exec_(exec), A_(A), K_(K), n_(K.level.model.vertices), blocks_(n_) {}
+      : exec_(exec), A_(A), K_(K), n_(K.level.model.vertices), blocks_(n_, ranks_of<B>(K.level)) {}
 
   /// Returns the largest eigenvalue, from the inner product of K, or of A where K is indefinite.
   /// K of a compressed body may be indefinite. The iteration in its product then meets vectors
@@ -75,7 +77,8 @@ class Lanczos {
   template <class P, class Q>
   Found iterate(const P& product, const Q& other, double tolerance) {
     fill_from_hash<B>(exec_, "plica::lanczos_start", K_.level.model.inverse_mass, v_, blocks_,
-                      result_);
+                      result_, vertices_of<B>(K_.level),
+                      K_.level.ranks ? K_.level.ranks->number : Indices<B>());
     double square = product(v_, pv_);
     if (!(square > 0)) return {0, square < 0};
     double beta = std::sqrt(square), scale = 1 / beta, scale_before = 0;
@@ -101,7 +104,8 @@ class Lanczos {
 
   double map(const Vectors<B>& x, const Vectors<B>& y) {
     A_(x, y);
-    dot<B>(exec_, "plica::lanczos_product", y, x, blocks_, result_);
+    reduce<B, 1>(exec_, "plica::lanczos_product", vertices_of<B>(K_.level), Dot<B>{y, x}, blocks_,
+                 result_);
     return host_values(exec_, result_)[0];
   }
 };
@@ -131,11 +135,12 @@ double excited_eigenvalue(const typename B::Exec& exec, const StiffnessAt<B>& K,
   };
   const Vectors<B> y = vectors("plica::excited.Kx"), w = vectors("plica::excited.w"),
                    z = vectors("plica::excited.Kw");
-  const BlockSums<B> blocks(n);
+  const BlockSums<B> blocks(n, ranks_of<B>(K.level));
   const auto result = zeros<Doubles<B>>("plica::excited.result", 1);
   multiply(exec, K, x, y, blocks, result);
   multiply_by_inverse_mass(exec, K.level, y, w);
-  dot<B>(exec, "plica::excited_mass", w, y, blocks, result);  // w.M w
+  // w.M w
+  reduce<B, 1>(exec, "plica::excited_mass", vertices_of<B>(K.level), Dot<B>{w, y}, blocks, result);
   const double mass = host_values(exec, result)[0];
   return mass > 0 ? multiply(exec, K, w, z, blocks, result) / mass : 0.0;
 }

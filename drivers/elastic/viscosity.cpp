@@ -149,6 +149,7 @@ void Viscosity<B>::take_share(const Exec& exec, double t) {
   step_over(exec, t), shared_ = t;
   const auto sets = static_cast<int>(set_region_.extent(0)),
              count = static_cast<int>(constants_.extent(0));
+  if (sets == 0) return;  // one of several ranks may have no element
   update_vertices<B>(
       exec, "plica::scale_shape", count,
       ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <memory>
+#include <plica/core/grouping.hpp>
 #include <plica/core/time_functions.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/contact/turning.hpp>
@@ -8,6 +10,7 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/level/build_followers.hpp>
 #include <plica/drivers/level/build_level.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 
 namespace plica {
@@ -71,15 +74,28 @@ void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants 
     model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres, c.families);
 }
 
+/// Returns the shares of a part's vertices, own ones and those that are received.
+template <class B>
+VertexShares<B> shares_of_part(const LevelPart& part) {
+  const Grouping of_vertex(part.share_vertex, part.part.vertex.size());
+  std::vector<int> row;
+  for (const int i : of_vertex.number) row.push_back(part.share_row[index_of(i)]);
+  return {part.shares.own + part.shares.received(),
+          to_device<Indices<B>>("shares.first", of_vertex.first),
+          to_device<Indices<B>>("shares.row", row)};
+}
+
 template <class B>
 void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
-                  const LevelConstants& c, BesideNodal beside) {
+                  const LevelConstants& c, BesideNodal beside, const LevelPart* part,
+                  HaloRows& slots) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
-    model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
+    model.patches =
+        build_patches<B>(placed, c.material, c.stiffness_damping, part ? &part->runs : nullptr);
     if (!c.fibres.empty())
       model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
-    model.shares = with_followers(model.patches.shares, placed);
+    model.shares = part ? shares_of_part<B>(*part) : with_followers(model.patches.shares, placed);
   } else {
     const bool smoothed = smooths_pressure(body, c.lame);
     NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
@@ -87,7 +103,12 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
       constants.stabiliser.push_back(body.stabilisation * lame.mu);
       if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
     }
-    model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
+    if (part) {
+      auto [rows, halo] = build_nodal_part<B>(placed, constants, c.constrained, part->part);
+      model.rows = rows, slots = std::move(halo);
+    } else {
+      model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
+    }
     model.shares = with_followers(model.rows.shares, placed);
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty())
@@ -101,18 +122,42 @@ void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
                                                                      : model.rows.slices);
 }
 
+/// Makes the messages of a part. Rows of `partial` are received in place.
+template <class B>
+std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const LevelData<B>& level,
+                                               Element element, const HaloRows& slots) {
+  auto made = std::make_shared<RankLevel<B>>(RankLevel<B>{
+      part.ranks, part.part, to_device<Indices<B>>("level.number", part.part.vertex), {}, {}, {}});
+  Ranks& ranks = *part.ranks;
+  if (element == Element::linear) {
+    made->shares = std::make_unique<Halo<B>>(ranks, "shares of level 0", part.shares,
+                                             std::vector{3}, level.partial.data());
+    return made;
+  }
+  constexpr int record = 12;  // numbers of a slot
+  const bool smoothed = level.model.rows.bulk_excess.extent(0) > 0;
+  made->vertices =
+      std::make_unique<Halo<B>>(ranks, "vertices of level 0", part.vertices, std::vector{3});
+  made->slots =
+      std::make_unique<Halo<B>>(ranks, "records of level 0", slots,
+                                smoothed ? std::vector{1, 2, record} : std::vector{record});
+  return made;
+}
+
 }  // namespace
 
 template <class B>
 LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
-                         BesideNodal beside) {
+                         BesideNodal beside, const LevelPart* part) {
   using Real = typename B::Real;
   const std::size_t n = placed.vertices.size();
   LevelData<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.followers = following_vertices<B>(placed);
-  add_elements(level, body, placed, c, beside);
+  HaloRows slots;
+  add_elements(level, body, placed, c, beside, part, slots);
+  if (part) level.ranks = rank_level(*part, level, c.element, slots);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -169,7 +214,7 @@ LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelCon
 
 #define PLICA_INSTANTIATE(Real, Exec)                                       \
   template LevelData<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
-      const Body&, const TetMesh&, const LevelConstants&, BesideNodal);
+      const Body&, const TetMesh&, const LevelConstants&, BesideNodal, const LevelPart*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -8,6 +8,7 @@
 #include <plica/kernels/elastic/kept_tangents.hpp>
 #include <plica/kernels/elastic/nodal_rows.hpp>
 #include <plica/kernels/elastic/relaxed_stress.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -48,6 +49,7 @@ void Level<B>::element_force(const State<B>& at, double time, const Vectors<B>& 
     if (viscosity) viscosity->prepare_at(exec(), *this, time);
     elasticity_->force(exec(), *this, at, ++evaluation_);
     if (viscosity) add_relaxed_force<B>(exec(), *this, at.u);
+    complete_shares<B>(exec(), *this);
     gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
   });
 }
@@ -137,6 +139,7 @@ void Level<B>::measure_forces(double time, const Vectors<B>& force) {
   if (viscosity) viscosity->prepare_at(exec(), *this, time);
   elasticity_->force(exec(), *this, this->state, evaluation_);
   if (viscosity) add_relaxed_force<B>(exec(), *this, this->state.u);
+  complete_shares<B>(exec(), *this);
   this->flags = kept;
   gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
   for (const auto& term : terms) term->add_force(exec(), this->state, time, force);

@@ -17,12 +17,14 @@
 #include <plica/drivers/elastic/element_bound.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/level/build_level.hpp>
+#include <plica/drivers/level/surface_of_part.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/loads/dead_loads.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
+#include <plica/drivers/run/deform_start.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/time/critical_step.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
@@ -60,8 +62,9 @@ class HierarchyBuilder {
   using Exec = typename B::Exec;
 
  public:
-  HierarchyBuilder(const Problem& problem, const Exec& exec)
+  HierarchyBuilder(const Problem& problem, const Exec& exec, Ranks* ranks)
       : problem_(problem),
+        ranks_(ranks),
         needs_(stepper_needs(problem.integration.cycle)),
         meshes_(needs_.coarse_meshes ? problem.body.levels.size() : 1),
         levels_(integrated_levels(problem.integration.cycle, problem.body.levels.size())) {
@@ -86,7 +89,9 @@ class HierarchyBuilder {
     for (std::size_t i = 0; i < levels_; ++i)
       phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
     phase("planning the steps", [&] { plan(); });
-    if (starts_deformed(problem_.body.initial)) deform();
+    if (starts_deformed(problem_.body.initial))
+      deform_start<B>(problem_.body, built_.meshes.front(), constants_.front().constrained,
+                      built_.hierarchy->levels.front());
     built_.stepper->start(*built_.hierarchy);
     for (const auto& level : built_.hierarchy->levels)
       follow_masters(built_.hierarchy->exec(), level.model, level.state);
@@ -104,6 +109,7 @@ class HierarchyBuilder {
   }
 
   const Problem& problem_;
+  Ranks* ranks_;  // null: one process
   BuiltHierarchy<B> built_;
   StepperNeeds needs_;
   std::size_t meshes_, levels_;  // number of meshes that are used; of levels that are integrated
@@ -111,7 +117,11 @@ class HierarchyBuilder {
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;                  // per level
   std::vector<std::vector<std::unique_ptr<ForceTerm<B>>>> terms_;  // per level
-  std::vector<std::unique_ptr<BodyLocator>> locators_;             // per level, see locator()
+  // this rank's part of level 0, its constants and its surface; none: one process
+  std::optional<LevelPart> part_;
+  LevelConstants part_constants_;
+  SurfacePart part_surface_;
+  std::vector<std::unique_ptr<BodyLocator>> locators_;  // per level, see locator()
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
   std::vector<int> massless_ = {0};  // [i]: number of level i's vertices that inherit no mass
@@ -138,7 +148,8 @@ class HierarchyBuilder {
       if (i < levels_) {
         loads_.push_back(assemble_loads(body, mesh, constants_[i], level,
                                         i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
-        terms_.push_back(make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
+        if (!ranks_)
+          terms_.push_back(make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
         if (seeks_rest(problem_.integration)) add_growing_weight(constants_[i].mass, terms_[i]);
       }
       for (Point& p : mesh.vertices) p += shift;
@@ -193,30 +204,6 @@ class HierarchyBuilder {
     built_.held = constants_.front().held;
   }
 
-  /// Deforms level 0 as it starts, after limits were found at rest. The other levels take their
-  /// states from it.
-  void deform() {
-    const TetMesh& mesh = built_.meshes.front();
-    const State<B>& state = built_.hierarchy->levels.front().state;
-    std::vector<Point> u =
-        initial_displacement(problem_.body.initial, mesh, bounding_box(mesh.vertices));
-    const auto given = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.u);
-    for (std::size_t a = 0; a < u.size(); ++a)
-      for (int k = 0; k < 3; ++k)
-        if (constants_.front().constrained[a])
-          u[a][k] = static_cast<double>(given(a, static_cast<std::size_t>(k)));
-    if (!allows_inversion(problem_.body.material))
-      if (const std::string inverted = inverted_at_start(mesh, u); !inverted.empty())
-        throw InputError(
-            "body.initial: " + inverted +
-            ", which this material may not; expected "
-            "body.material.allow_inversion: true, or a start without inverted elements");
-    copy(built_.hierarchy->exec(), state.u,
-         to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
-    hold_sliding(built_.hierarchy->exec(), built_.hierarchy->levels.front(), state.u);
-    follow_masters(built_.hierarchy->exec(), built_.hierarchy->levels.front().model, state.u);
-  }
-
   void report_mesh(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
     LevelReport& report = built_.reports.emplace_back();
@@ -266,9 +253,29 @@ class HierarchyBuilder {
     return by_products ? BesideNodal::matrix_and_rows : BesideNodal::matrix;
   }
 
+  /// Returns the mesh that level i is built of: all of it, or this rank's part.
+  const TetMesh& own_mesh(std::size_t i) const { return part_ ? part_->mesh : built_.meshes[i]; }
+
+  /// Finds this rank's part of level 0, and what acts on it.
+  void take_part() {
+    const TetMesh& mesh = built_.meshes.front();
+    part_ = part_of_level(mesh, constants_.front().element, *ranks_, vertex_block<B>);
+    part_constants_ = constants_of_part(constants_.front(), part_->part);
+    built_.held = held_by_part(built_.held, part_->part);
+    terms_.push_back(make_force_terms<B>(problem_.body, part_->mesh, part_constants_,
+                                         loads_of_part(loads_.front(), part_->part), 0));
+    if (!problem_.body.surface) return;
+    part_surface_ =
+        surface_of_part(surface_, mesh, part_->part, constants_.front().element, ranks_->own());
+    built_.surface_point = part_surface_.points, built_.owned_points = part_surface_.owned;
+  }
+
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    LevelData<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
+    if (ranks_) take_part();
+    LevelData<B> level =
+        build_level<B>(problem_.body, own_mesh(i), part_ ? part_constants_ : constants_[i],
+                       beside_nodal(i), part_ ? &*part_ : nullptr);
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<typename B::Real> limit;
       for (double edge : local_edge_lengths(mesh))
@@ -279,7 +286,8 @@ class HierarchyBuilder {
     // the finest level has the surface for output; the others have it only where something acts on
     // it
     if (problem_.body.surface && (i == 0 || has_contact(problem_) || problem_.surface_forces))
-      level.surface = build_surface<B>(surface_, embed_surface(i));
+      level.surface = part_ ? build_surface<B>(part_surface_.surface, part_surface_.embedding)
+                            : build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock,
                                           static_cast<int>(i));
     built_.hierarchy->levels.back().terms = std::move(terms_[i]);
@@ -288,8 +296,11 @@ class HierarchyBuilder {
   /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
   /// they turn with it.
   Embedding embed_surface(std::size_t i) {
-    if (!problem_.body.surface_vertex.empty() && i == 0)
-      return embed_at_vertices(built_.meshes.front(), problem_.body.surface_vertex);
+    if (i == 0) {
+      std::vector<int> at = problem_.body.surface_vertex;
+      if (at.empty()) at = vertices_at(surface_.vertices, built_.meshes.front());
+      if (!at.empty()) return embed_at_vertices(built_.meshes.front(), at);
+    }
     constexpr double far = 10;  // edges; a coarse mesh may lie a little inside the surface
     Embedding embedding = embed_free(built_.meshes[i], problem_.body.parts, locator(i),
                                      surface_.vertices, parts_of_points(problem_.body.parts));
@@ -370,12 +381,18 @@ class HierarchyBuilder {
         .attached = attached_points(p.contact.attachments, surface_, p.body.parts),
         .held = holdable(),
         .edge = contact_edge(),
-        .size = body_size()};
+        .size = body_size(),
+        .kept = part_ ? std::optional(part_surface_.points) : std::nullopt,
+        .counted = part_surface_.counted};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
       touching.parts.push_back({&p.body.parts[b].material, locator(0).mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
     contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p));
+    if (part_ && contact_->whole() > 0)
+      throw InputError("contact.whole_surface is " + options.whole_surface +
+                       ", and an obstacle is so small that it touches between points, which runs "
+                       "on one process alone; expected never, or one process");
   }
 
   /// Returns for each obstacle the surface points that it may grasp; empty: all of them.
@@ -439,7 +456,7 @@ class HierarchyBuilder {
     level.set_forces(elasticity_[i], gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))
       level.viscosity = std::make_unique<Viscosity<B>>(
-          constants_[i].shape, problem_.integration.relaxation, built_.meshes[i], level);
+          constants_[i].shape, problem_.integration.relaxation, own_mesh(i), level);
   }
 
   /// Makes the stepper, and lets it plan the steps of the levels.
@@ -457,13 +474,14 @@ class HierarchyBuilder {
 }  // namespace
 
 template <class B>
-BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec) {
-  return HierarchyBuilder<B>(problem, exec).build();
+BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec,
+                                  Ranks* ranks) {
+  return HierarchyBuilder<B>(problem, exec, ranks && ranks->count() > 1 ? ranks : nullptr).build();
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                \
   template BuiltHierarchy<Backend<Real, Exec>> build_hierarchy<Backend<Real, Exec>>( \
-      const Problem&, const Exec&);
+      const Problem&, const Exec&, Ranks*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

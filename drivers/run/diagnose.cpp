@@ -6,6 +6,7 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/run/diagnose.hpp>
 #include <plica/drivers/run/registry.hpp>
+#include <plica/drivers/run/whole.hpp>
 
 namespace plica {
 
@@ -131,27 +132,44 @@ std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
   for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // coarsest first, as levels act
-    const LevelData<B>& level = (*built.hierarchy)[i];
-    if (level.flags.evaluation.extent(0) == 0) continue;
+    const Level<B>& level = (*built.hierarchy)[i];
+    if (!level.flags.raised.data()) continue;
     const auto copy = [](const auto& view) {
       return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
     };
-    if (copy(level.flags.raised)() == 0) continue;
+    double raised = copy(level.flags.raised)();
+    if (level.ranks) level.ranks->ranks->most({&raised, 1});
+    if (raised == 0) continue;
     const bool nodal = level.model.rows.slices > 0;
     const auto evaluation = copy(level.flags.evaluation),
                map = copy(nodal ? level.model.rows.vertex : level.model.patches.element);
     const auto word = copy(level.flags.word);
-    const auto J = [&](int p) { return ElementFlags<B>::J(word(p)); };
-    int worst = -1;
-    for (int p = 0; p < static_cast<int>(evaluation.extent(0)); ++p)
-      if (evaluation(p) > 0 && (worst < 0 || evaluation(p) < evaluation(worst) ||
-                                (evaluation(p) == evaluation(worst) && J(p) < J(worst))))
-        worst = p;
-    if (worst < 0) continue;
+    struct Flagged {
+      int evaluation;
+      float J;
+      int item;  // number of the vertex or element in the level's mesh
+    };
+    std::vector<Flagged> all;  // patch by patch
+    for (std::size_t p = 0; p < evaluation.extent(0); ++p)
+      if (evaluation(p) > 0)
+        all.push_back({evaluation(p), ElementFlags<B>::J(word(p)),
+                       map(static_cast<std::size_t>(ElementFlags<B>::slot(word(p))))});
+    if (level.ranks) {
+      const RankPart& part = level.ranks->part;
+      for (Flagged& one : all)
+        one.item = (nodal ? part.vertex : part.tet)[static_cast<std::size_t>(one.item)];
+      all = joined(*level.ranks->ranks, all);
+    }
+    const auto worst = std::ranges::min_element(all, [](const Flagged& a, const Flagged& b) {
+      return a.evaluation < b.evaluation || (a.evaluation == b.evaluation && a.J < b.J);
+    });
+    if (worst == all.end()) continue;
     Diagnosis d;
-    d.kind = std::isfinite(J(worst)) ? "inverted" : "non_finite";
-    (nodal ? d.vertex : d.element) = map(ElementFlags<B>::slot(word(worst)));
-    d.level = i, d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
+    d.kind = std::isfinite(worst->J) ? "inverted" : "non_finite";
+    (built.reports[static_cast<std::size_t>(i)].element == name_of(Element::nodal) ? d.vertex
+                                                                                   : d.element) =
+        worst->item;
+    d.level = i, d.J = std::isfinite(worst->J) ? static_cast<double>(worst->J) : 0.0;
     complete(d, built);
     return d;
   }
@@ -164,15 +182,16 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   Diagnosis d;
   d.kind = kind, d.level = std::max(level, 0), d.reason = reason;
   for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0 && level < 0; --i) {
-    const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].state.u);
+    const auto u = whole_field<B>((*built.hierarchy)[i], (*built.hierarchy)[i].state.u);
     const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !is_finite(p); });
     if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
   }
   const auto i = static_cast<std::size_t>(d.level);
   const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].state.u : kept[i].u;
-  const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
+  const WorstElement worst =
+      worst_element(built.meshes[i], whole_field<B>((*built.hierarchy)[d.level], u));
   d.element = worst.element, d.J = worst.J;
-  const bool forbidden = (*built.hierarchy)[d.level].flags.evaluation.extent(0) > 0;
+  const bool forbidden = (*built.hierarchy)[d.level].flags.raised.data() != nullptr;
   // repairs of a cycle have cleared the flag
   if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";
   complete(d, built);

@@ -4,25 +4,24 @@
 #include <cmath>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/run/energy_meter.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/time/energies.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 
 template <class B>
-EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh,
+EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, double mass,
                             const Point& gravity)
-    : hierarchy_(hierarchy), result_("plica::energies", 6) {
+    : hierarchy_(hierarchy), mass_(mass), result_("plica::energies", 6) {
+  std::vector<double> edges = local_edge_lengths(mesh);
+  if (hierarchy[0].ranks) edges = hierarchy[0].ranks->part.local(edges);
   std::vector<typename B::Real> per_edge;
-  for (const double edge : local_edge_lengths(mesh))
-    per_edge.push_back(static_cast<typename B::Real>(1 / edge));
+  for (const double edge : edges) per_edge.push_back(static_cast<typename B::Real>(1 / edge));
   inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
-  const auto mass =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
-  for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
   set_gravity(gravity);
   const LevelData<B>& level = hierarchy[0];
-  blocks_ = BlockSums<B>(std::max(level.model.vertices, level.surface.points));
+  blocks_ = BlockSums<B>(std::max(level.model.vertices, level.surface.points), ranks_of<B>(level));
 }
 
 template <class B>
@@ -41,7 +40,7 @@ MotionReport EnergyMeter<B>::motion(const Point& drift) const {
   using Term = MotionEnergies<B>;
   const LevelData<B>& level = hierarchy_[0];
   reduce<B, 6, Term, MotionSums>(
-      hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
+      hierarchy_.exec(), "plica::motion_energies", vertices_of<B>(level),
       Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}},
       blocks_, result_);
   const auto sums = read();
@@ -59,7 +58,8 @@ Energies EnergyMeter<B>::all(double time) const {
   Energies e = motion(Point::Zero()).energies;
   if (level.viscosity) level.viscosity->look_at_once(exec);
   level.elasticity().energy(exec, level, level.state.u);
-  reduce<B, 1>(exec, "plica::elastic_energy", level.model.vertices,
+  complete_shares<B>(exec, level);
+  reduce<B, 1>(exec, "plica::elastic_energy", vertices_of<B>(level),
                EnergyOfShares<B>{level.model.shares, level.partial}, blocks_, result_);
   e.elastic = read()[0];
   if (level.contact()) e.contact = level.response().energy(exec, level, time);

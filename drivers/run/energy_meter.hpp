@@ -154,8 +154,9 @@ struct MotionReport {
 template <class B>
 class EnergyMeter {
  public:
-  /// Prepares the sums. `mesh` is that of level 0.
-  EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, const Point& gravity);
+  /// Prepares the sums. `mesh` is that of level 0, all of it, and `mass` its mass [kg].
+  EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, double mass,
+              const Point& gravity);
   void set_gravity(const Point& gravity);         ///< from now on [m/s^2]
   MotionReport motion(const Point& drift) const;  ///< one pass over the vertices
   Energies all(double time) const;  ///< one pass each over vertices, elements and surface
@@ -164,7 +165,7 @@ class EnergyMeter {
   const Hierarchy<B>& hierarchy_;
   Vec3<typename B::Real> gravity_;
   Scalars<B> inverse_edge_;
-  double mass_ = 0;
+  double mass_;
   BlockSums<B> blocks_;
   Doubles<B> result_;
 

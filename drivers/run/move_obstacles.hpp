@@ -16,6 +16,7 @@ template <class B>
 void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double end, double span) {
   const Contact<B>* contact = hierarchy[0].contact();
   if (!contact) return;
+  for (const Level<B>& level : hierarchy.levels) level.response().finish_sums(hierarchy.exec());
   for (int i = 0; i < hierarchy.count(); ++i)
     update_vertices<B>(hierarchy.exec(), "plica::contact_impulses",
                        static_cast<int>(wrench.extent(0)),

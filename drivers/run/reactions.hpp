@@ -24,6 +24,7 @@ class Reactions {
  private:
   struct Set {
     Indices<B> vertex;
+    Indices<B> place;  ///< [vertices] number of each vertex in `vertex`; -1: not held by the set
     Kokkos::View<double* [9], Kokkos::LayoutRight, typename B::Memory> share;
   };
   std::vector<HeldSet> sets_;

@@ -53,12 +53,14 @@ constexpr double time_rounding = 1e-9;  // relative
 constexpr double least_edge = 1e-3;
 
 /// Returns the problem that is stepped, which is checked.
-Problem steppable(const Problem& p, Validation validation) {
+Problem steppable(const Problem& p, Validation validation, bool on_ranks) {
   if (!p.body.covers.empty()) {
     Problem composed = p;
     compose_levels(composed.body, composed.contact);
-    return steppable(composed, validation);
+    return steppable(composed, validation, on_ranks);
   }
+  if (on_ranks)
+    if (const std::string why = refused_by_ranks(p); !why.empty()) throw InputError(why);
   if (validation == Validation::needed) validate(p);
   if (p.integration.cycle == "auto")
     throw InputError(
@@ -76,14 +78,20 @@ template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec, Validation validation)
     : impl_(std::make_unique<Impl>(problem, exec, validation)) {}
 template <class B>
-Simulation<B>::~Simulation() = default;
+Simulation<B>::Simulation(const Problem& problem, const Exec& exec, Ranks& ranks,
+                          Validation validation)
+    : impl_(std::make_unique<Impl>(problem, exec, validation, &ranks)) {}
+template <class B>
+Simulation<B>::~Simulation() {
+  if (impl_ && impl_->leads) impl_->tell(Call::end);
+}
 
 template <class B>
-Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validation)
-    : problem(steppable(p, validation)),
-      built(build_hierarchy<B>(problem, exec)),
+Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validation, Ranks* of)
+    : problem(steppable(p, validation, of && of->count() > 1)),
+      built(build_hierarchy<B>(problem, exec, of)),
       queue(exec),
-      meter(*built.hierarchy, built.meshes.front(), p.gravity),
+      meter(*built.hierarchy, built.meshes.front(), built.reports.front().mass, p.gravity),
       held(built.held),
       motions(p.contact),
       control(most_halvings(problem)),
@@ -106,6 +114,7 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
   linear = !find_material(p.body.material.model)->rotation_invariant;
   if (const auto& part = problem.body.following)
     ends = ends_of_vertices(part->coarser, part->refined);
+  if (of && of->count() > 1) ranks = of, join_numbers();
   reset_snapshots();
   open_budget();
 }
@@ -114,6 +123,7 @@ Simulation<B>::Impl::Impl(const Problem& p, const Exec& exec, Validation validat
 
 template <class B>
 void Simulation<B>::step() {
+  const LedCall led(*impl_, Call::step);
   if (impl_->step_start) impl_->keep(*impl_->step_start);
   if (!impl_->problem.cuts.empty()) cut_ahead();
   if (impl_->problem.body.following) follow_ahead();
@@ -134,6 +144,7 @@ template <class B>
 void Simulation<B>::end_at(double time) {
   if (std::isnan(time))
     throw InputError("end_at: the time is no number; expected one, or infinity for no end");
+  const LedCall led(*impl_, Call::end_at, time);
   impl_->end = time;
 }
 
@@ -176,6 +187,7 @@ void Simulation<B>::Impl::advance(double from, double span) {
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::step_checked() {
+  const LedCall led(*impl_, Call::step_checked);
   if (!impl_->problem.cuts.empty())
     if (const auto refused = cut_checked()) return refused;
   step();
@@ -189,6 +201,7 @@ std::optional<Diagnosis> Simulation<B>::step_checked() {
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Impl& s = *impl_;
+  const LedCall led(s, Call::check);
   const auto bad = s.examine();
   if (bad) return bad;
   s.keep_at_times();
@@ -229,7 +242,7 @@ std::optional<Diagnosis> Simulation<B>::Impl::find_failure(const MotionReport& n
       return bad;
     }
   if (const Contact<B>* contact = hierarchy()[0].contact())
-    if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
+    if (const int point = lost_point(*contact); point >= 0)
       return failure("contact", motion, 0, "surface point " + std::to_string(point));
   put_in = std::max(put_in, start - e.potential);
   // Elastic and contact energy are not negative, so that kinetic energy beyond what was put in is
@@ -257,7 +270,7 @@ std::optional<Diagnosis> Simulation<B>::Impl::find_failure(const MotionReport& n
 template <class B>
 void Simulation<B>::Impl::look_at_end() {
   const Level<B>& level = hierarchy()[0];
-  if (level.flags.evaluation.extent(0) > 0)
+  if (level.flags.raised.data())
     level.elasticity().force(level.exec(), level, level.state, std::numeric_limits<int>::max());
 }
 

@@ -7,6 +7,7 @@
 #include <plica/core/backend.hpp>
 #include <plica/core/device_array.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/core/ranks.hpp>
 #include <plica/core/reports.hpp>
 #include <plica/drivers/loads/external_forces.hpp>
 #include <plica/meshes/cut.hpp>
@@ -33,6 +34,15 @@ class Simulation {
   /// the possible choices and the remedy.
   explicit Simulation(const Problem& problem, const Exec& exec = {},
                       Validation validation = Validation::needed);
+  /// Builds this rank's part of a body that several ranks simulate together; all of them call this
+  /// with the same problem. Results are those of one process, bit for bit. Throws InputError, on
+  /// all of them, also for what only one process can simulate; see refused_by_ranks().
+  ///
+  /// From then on all ranks call the same functions in the same order. Vertices, elements and
+  /// surface points in results are those that the rank owns; sums and diagnoses are of the whole
+  /// body. Device views have local vertices, with copies of those of other ranks.
+  Simulation(const Problem& problem, const Exec& exec, Ranks& ranks,
+             Validation validation = Validation::needed);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -98,6 +108,19 @@ class Simulation {
   /// Restores all levels and the time from before the last macro step, or from before the one that
   /// an exception has left. Without keep_step_starts(), from the last snapshot.
   void return_to_step_start();
+
+  /// Makes rank 0 the one that calls: the others are in follow(). Results are then of the whole
+  /// body, on rank 0 alone. It ends with the simulation there.
+  void lead();
+  /// Does what rank 0 calls, until its simulation ends or it calls dismiss(). Returns the status
+  /// given there.
+  int follow();
+  /// Ends follow() on the other ranks, which return this status.
+  void dismiss(int status);
+  /// Returns the number in the whole mesh of each vertex that this rank owns, ascending.
+  std::vector<int> numbers() const;
+  /// Returns how ranks share the body; none: one process has all of it. All ranks call this.
+  std::optional<RankReport> ranks() const;
 
   double time() const;                             ///< simulated time [s]
   double macro_step() const;                       ///< length of a macro step [s]

@@ -147,6 +147,7 @@ std::vector<Wrench> Simulation<B>::Impl::to_host(const Doubles<B>& numbers) cons
 
 template <class B>
 std::vector<double> Simulation<B>::contact_depths() const {
+  const LedCall led(*impl_, Call::contact_depths);
   const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact()) return {};
   std::vector<double> all =
@@ -166,9 +167,19 @@ template <class B>
 std::vector<double> Simulation<B>::contact_pressure() const {
   const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact()) return {};
+  const LedCall led(*impl_, Call::contact_pressure);
   std::vector<double> pressure = finest.response().normal_forces(impl_->hierarchy().exec());
+  if (impl_->ranks) {
+    std::vector<double> own;
+    for (const int p : impl_->built.owned_points)
+      own.push_back(pressure[static_cast<std::size_t>(p)]);
+    if (!impl_->is_led()) impl_->expect_one_process("contact_pressure");
+    pressure = impl_->given(own, 1, impl_->joined_points);
+  }
+  const std::vector<Point> points = surface_positions();
+  if (points.empty()) return {};
   const std::vector<double> area =
-      areas_of_points({surface_positions(), impl_->problem.body.surface->triangles});
+      areas_of_points({points, impl_->problem.body.surface->triangles});
   for (std::size_t p = 0; p < pressure.size(); ++p)
     pressure[p] = area[p] > 0 ? pressure[p] / area[p] : 0;
   return pressure;
@@ -184,6 +195,7 @@ double Simulation<B>::friction_work() const {
 
 template <class B>
 std::vector<double> Simulation<B>::slipping() const {
+  const LedCall led(*impl_, Call::slipping);
   const Level<B>& finest = impl_->hierarchy()[0];
   if (!finest.contact()) return {};
   return finest.response().slipping(impl_->hierarchy().exec());

@@ -181,6 +181,7 @@ Faces Simulation<B>::Impl::open_so_far() const {
 template <class B>
 CutReport Simulation<B>::cut(const Blade& blade) {
   Impl& s = *impl_;
+  s.expect_one_process("cut");
   const Kokkos::Timer timer;
   if (const std::string why = refused_by_cuts(s.problem); !why.empty())
     throw InputError("cut: " + why);

@@ -32,10 +32,53 @@ struct OpenedBody {
   CutReport report;
 };
 
+/// Functions that all ranks call together, where rank 0 leads.
+enum class Call {
+  end,
+  go_on,
+  step,
+  step_checked,
+  check,
+  recover,
+  return_to_last_good,
+  return_to_step_start,
+  keep_step_starts,
+  end_at,
+  energies,
+  reactions,
+  contact_depths,
+  slipping,
+  contact_pressure,
+  positions,
+  velocities,
+  surface_positions,
+  surface_velocities,
+  element_fields,
+  ranks
+};
+
+/// A call of one of these functions. Where rank 0 leads, it tells the other ranks; what the
+/// function calls in turn, it does not.
+template <class S>
+class LedCall {
+ public:
+  LedCall(S& s, Call call, double argument = 0, double other = 0) : s_(s.ranks ? &s : nullptr) {
+    if (s_ && s_->calls++ == 0 && s_->leads) s_->tell(call, argument, other);
+  }
+  ~LedCall() {
+    if (s_) --s_->calls;
+  }
+  LedCall(const LedCall&) = delete;
+  LedCall& operator=(const LedCall&) = delete;
+
+ private:
+  S* s_;  // null: one process, whose data a cut may replace during the call
+};
+
 /// Data and functions of a simulation, for the sources that implement it.
 template <class B>
 struct Simulation<B>::Impl {
-  Impl(const Problem& p, const Exec& exec, Validation validation);
+  Impl(const Problem& p, const Exec& exec, Validation validation, Ranks* of = nullptr);
 
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
@@ -114,6 +157,15 @@ struct Simulation<B>::Impl {
   long mesh_changes = 0;       // number of times that level 0 was built again
   ExternalForces<B> external;  // the caller's, see set_external_forces()
 
+  // Several ranks, see simulation_ranks.cpp
+  Ranks* ranks = nullptr;  // null: one process
+  bool leads = false, follows = false;
+  Simulation* self = nullptr;  // this simulation, on a rank that follows
+  int calls = 0;               // depth of calls that the others know of
+  // numbers of surface points and of tetrahedra as the ranks have them, one rank after the other
+  std::vector<int> joined_points, joined_tets;
+  double imbalance = 1;
+
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
@@ -165,6 +217,23 @@ struct Simulation<B>::Impl {
   // Level 0 that is built again
   Problem present_problem() const;
   void go_on_from(Impl& before);
+
+  // Several ranks
+  void join_numbers();
+  void tell(Call call, double argument = 0, double other = 0) const;
+  double follow(Call until);
+  void call_after_repeated();
+  bool is_led() const { return leads || follows; }
+  // throws InputError where several ranks share the body
+  void expect_one_process(const char* what) const;
+  // returns values of own items; where rank 0 leads, all of them there
+  std::vector<double> given(const std::vector<double>& own, int components = 1,
+                            const std::vector<int>& order = {}) const;
+  std::vector<Point> given(const std::vector<Point>& own, const std::vector<int>& order = {}) const;
+  // returns the values of owned vertices or surface points, of those of local ones
+  std::vector<Point> of_vertices(const std::vector<Point>& local) const;
+  std::vector<Point> of_points(const std::vector<Point>& local) const;
+  int lost_point(const Contact<B>& contact);
 
   // Cuts
   OpenedBody with_open(const std::vector<Faces>& more) const;

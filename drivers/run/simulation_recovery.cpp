@@ -6,6 +6,7 @@
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/kernels/followers.hpp>
 
@@ -28,6 +29,9 @@ constexpr int most_repairs = 8;
 template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   Impl& s = *impl_;
+  const std::vector<Choice> kinds = diagnosis_kinds();
+  const auto kind = std::ranges::find(kinds, bad.kind, &Choice::name) - kinds.begin();
+  const LedCall led(s, Call::recover, static_cast<double>(kind));
   std::optional<Diagnosis> still = bad;
   if (s.built.stepper->repairs(bad) && repair(bad)) still.reset();
   if (still && s.control.halves()) still = s.retry(*still);
@@ -52,7 +56,7 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
       if (const auto now = s.examine();
           now && (now->kind == "non_finite" || now->kind == "inverted"))
         return false;
-      if (s.after_repeated) s.after_repeated();
+      s.call_after_repeated();
     }
     return !s.examine();
   };
@@ -81,7 +85,7 @@ std::optional<Diagnosis> Simulation<B>::Impl::retry(const Diagnosis& bad) {
   while (time < there) {
     if (const auto still = stepped([&] { return cover(true); })) return still;
     arrive();
-    if (after_repeated) after_repeated();
+    call_after_repeated();
   }
   return {};
 }
@@ -152,6 +156,7 @@ long Simulation<B>::earliest_kept() const {
 
 template <class B>
 void Simulation<B>::return_to_last_good() {
+  const LedCall led(*impl_, Call::return_to_last_good);
   impl_->restore_snapshot(impl_->kept);
 }
 
@@ -165,12 +170,14 @@ void Simulation<B>::Impl::keep_at_times() {
 
 template <class B>
 void Simulation<B>::keep_step_starts(bool on) {
+  const LedCall led(*impl_, Call::keep_step_starts, on ? 1 : 0);
   impl_->step_start.reset();
   if (on) impl_->keep(impl_->step_start.emplace());
 }
 
 template <class B>
 void Simulation<B>::return_to_step_start() {
+  const LedCall led(*impl_, Call::return_to_step_start);
   impl_->restore_snapshot(impl_->step_start ? *impl_->step_start : impl_->kept);
 }
 
@@ -258,6 +265,7 @@ template <class B>
 void Simulation<B>::set_state(const std::vector<Point>& displacement,
                               const std::vector<Point>& velocity) {
   Impl& s = *impl_;
+  s.expect_one_process("set_state");
   const State<B>& state = s.hierarchy()[0].state;
   const auto expect = [&](const std::vector<Point>& all, const char* what) {
     if (all.size() != state.u.extent(0))

@@ -8,11 +8,13 @@
 #include <plica/core/text.hpp>
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/contact/turning.hpp>
+#include <plica/drivers/elastic/elements.hpp>
 #include <plica/drivers/loads/exchange.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/validate.hpp>
+#include <plica/kernels/halo.hpp>
 
 namespace plica {
 
@@ -29,9 +31,11 @@ template <class B>
 const Vectors<B>& Simulation<B>::Impl::rest_positions(int i) {
   level(i);  // throws where there is no such level
   Vectors<B>& x = rest[static_cast<std::size_t>(i)];
-  if (x.extent(0) == 0)
-    x = to_device<Vectors<B>>(
-        "rest", rows<typename B::Real>(built.meshes[static_cast<std::size_t>(i)].vertices));
+  if (x.extent(0) == 0) {
+    std::vector<Point> at = built.meshes[static_cast<std::size_t>(i)].vertices;
+    if (ranks) at = hierarchy()[0].ranks->part.local(at);
+    x = to_device<Vectors<B>>("rest", rows<typename B::Real>(at));
+  }
   return x;
 }
 
@@ -61,6 +65,7 @@ std::vector<Part> Simulation<B>::parts() const {
 }
 template <class B>
 Energies Simulation<B>::energies() const {
+  const LedCall led(*impl_, Call::energies);
   return impl_->meter.all(impl_->time);
 }
 
@@ -98,6 +103,7 @@ std::vector<CavityState> Simulation<B>::cavities() const {
 
 template <class B>
 std::vector<Reaction> Simulation<B>::reactions() const {
+  const LedCall led(*impl_, Call::reactions);
   return impl_->held.at(impl_->hierarchy()[0], impl_->rest_positions(0), impl_->time,
                         !seeks_rest(impl_->problem.integration));
 }
@@ -105,6 +111,7 @@ std::vector<Reaction> Simulation<B>::reactions() const {
 template <class B>
 void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
   Impl& s = *impl_;
+  if (forces) s.expect_one_process("set_external_forces");
   for (int i = 0; i < s.hierarchy().count(); ++i)
     s.hierarchy()[i].set_external(forces, s.rest_positions(i));
   if (forces) s.budget_known = false;
@@ -118,7 +125,7 @@ void Simulation<B>::use_graphs(bool on) {
 
 template <class B>
 void Simulation<B>::share_cores() {
-  if (!impl_->cores) impl_->cores.emplace(impl_->hierarchy().exec());
+  if (!impl_->cores && !impl_->ranks) impl_->cores.emplace(impl_->hierarchy().exec());
 }
 
 template <class B>
@@ -134,14 +141,15 @@ std::map<std::string, double> Simulation<B>::stages() const {
 template <class B>
 std::map<std::string, long> Simulation<B>::counters() const {
   std::map<std::string, long> all = impl_->built.stepper->counters();
-  for (const auto& level : impl_->hierarchy().levels) {
+  for (int i = 0; i < impl_->hierarchy().count(); ++i) {
+    const Level<B>& level = impl_->hierarchy()[i];
     all["force_evaluations"] += level.evaluations();
     long passes = level.evaluations();  // passes over the elements
     for (const auto& [name, count] : level.integrator->counters()) {
       all[name] += count;
       if (name == "cg_iterations") passes += count;
     }
-    all["tet_evaluations"] += passes * level.model.tets;
+    all["tet_evaluations"] += passes * impl_->built.reports[static_cast<std::size_t>(i)].tets;
   }
   if (gathers<Exec>)
     all["launches_in_graphs"] = impl_->queue.in_graphs(),
@@ -205,6 +213,7 @@ void Simulation<B>::read_surface_normals(const DeviceOutput<B>& to) const {
 
 template <class B>
 void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities) {
+  impl_->expect_one_process("write_state");
   const State<B>& state = impl_->level(0).state;
   if (velocities.size() != positions.size())  // before anything is written
     throw InputError(std::to_string(positions.size()) + " positions and " +
@@ -217,29 +226,38 @@ void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInp
 
 template <class B>
 std::vector<Point> Simulation<B>::positions(int level) const {
+  impl_->level(level);  // throws where there is no such level
+  const LedCall led(*impl_, Call::positions);
   std::vector<Point> x = to_host<B>(impl_->hierarchy().exec(), displacement(level));
   const auto& rest = impl_->built.meshes[static_cast<std::size_t>(level)].vertices;
-  for (std::size_t a = 0; a < x.size(); ++a) x[a] += rest[a];
-  return x;
+  const auto& part = impl_->hierarchy()[level].ranks;
+  for (std::size_t a = 0; a < x.size(); ++a)
+    x[a] += rest[part ? static_cast<std::size_t>(part->part.vertex[a]) : a];
+  return impl_->of_vertices(x);
 }
 template <class B>
 std::vector<Point> Simulation<B>::velocities(int level) const {
-  return to_host<B>(impl_->hierarchy().exec(), velocity(level));
+  impl_->level(level);
+  const LedCall led(*impl_, Call::velocities);
+  return impl_->of_vertices(to_host<B>(impl_->hierarchy().exec(), velocity(level)));
 }
 template <class B>
 std::vector<Point> Simulation<B>::surface_positions() const {
+  const LedCall led(*impl_, Call::surface_positions);
   const Vectors<B> x("plica::surface.x", impl_->level(0).surface.points);
   read_surface_positions(x);
-  return to_host<B>(impl_->hierarchy().exec(), x);
+  return impl_->of_points(to_host<B>(impl_->hierarchy().exec(), x));
 }
 template <class B>
 std::vector<Point> Simulation<B>::surface_velocities() const {
+  const LedCall led(*impl_, Call::surface_velocities);
   const Vectors<B> v("plica::surface.v", impl_->level(0).surface.points);
   read_surface_velocities(v);
-  return to_host<B>(impl_->hierarchy().exec(), v);
+  return impl_->of_points(to_host<B>(impl_->hierarchy().exec(), v));
 }
 template <class B>
 std::vector<Point> Simulation<B>::surface_normals() const {
+  impl_->expect_one_process("surface_normals");
   const Vectors<B> n("plica::surface.n", impl_->level(0).surface.points);
   read_surface_normals(n);
   return to_host<B>(impl_->hierarchy().exec(), n);
@@ -266,7 +284,9 @@ void add_tensors(const std::vector<double>& rows, std::size_t numbers, ElementFi
 template <class B>
 ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
   const Level<B>& of = impl_->level(level);
-  const bool nodal = of.model.rows.slices > 0;
+  const LedCall led(*impl_, Call::element_fields, tensors ? 1 : 0);
+  const bool nodal =
+      impl_->built.reports[static_cast<std::size_t>(level)].element == name_of(Element::nodal);
   const int rows = nodal ? of.model.vertices : of.model.tets;
   StressFields<B> fields{Scalars<B>("plica::von_mises", rows), Scalars<B>("plica::J", rows)};
   constexpr int numbers = StressFields<B>::numbers;
@@ -284,6 +304,16 @@ ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
   };
   ElementFields all{nodal, values(fields.von_mises), values(fields.J)};
   if (tensors) add_tensors(values(fields.tensors), numbers, all);
+  if (!of.ranks) return all;
+  const auto give = [&](std::vector<double>& of_all, int components) {
+    const RankPart& part = of.ranks->part;
+    if (nodal)
+      of_all = {of_all.begin() + part.first_owned * components,
+                of_all.begin() + part.last_owned * components};
+    of_all = impl_->given(of_all, components, impl_->joined_tets);
+  };
+  give(all.von_mises, 1), give(all.J, 1);
+  if (tensors) give(all.stress, 6), give(all.pressure, 1), give(all.principal_stretches, 3);
   return all;
 }
 
@@ -378,6 +408,7 @@ void name_all(Impl& s, Archive<B>& archive) {
 template <class B>
 SavedState Simulation<B>::save() const {
   using Archive = Archive<B>;
+  impl_->expect_one_process("save");
   impl_->hierarchy().exec().fence("plica::save");
   SavedState saved;
   Archive archive(Archive::Task::save, saved.bytes);
@@ -388,6 +419,7 @@ SavedState Simulation<B>::save() const {
 template <class B>
 void Simulation<B>::restore(const SavedState& saved) {
   using Archive = Archive<B>;
+  impl_->expect_one_process("restore");
   impl_->hierarchy().exec().fence("plica::restore");
   std::vector<unsigned char> bytes = saved.bytes;
   Archive meshes(Archive::Task::restore, bytes), check(Archive::Task::check, bytes),

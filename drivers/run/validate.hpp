@@ -36,6 +36,10 @@ std::string refused_by_cuts(const Problem& problem);
 /// Returns why a mesh of level 0 cannot be cut, as a sentence; empty: it can.
 std::string refused_by_cuts(const TetMesh& mesh);
 
+/// Returns why several ranks cannot simulate a problem, as a sentence with the option; empty: they
+/// can, as far as is known before set-up.
+std::string refused_by_ranks(const Problem& problem);
+
 /// Checks the cuts of a problem, as far as that needs no mesh. Throws InputError.
 void validate_cuts(const Problem& problem);
 /// Checks that the body of a problem with cuts has a mesh and a surface that can be cut. Throws

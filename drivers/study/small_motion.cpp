@@ -99,7 +99,8 @@ template <class B>
 SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOptions& options) {
   start(built, t);
   Hierarchy<B>& hierarchy = *built.hierarchy;
-  const EnergyMeter<B> meter(hierarchy, built.meshes.front(), Point::Zero());
+  const EnergyMeter<B> meter(hierarchy, built.meshes.front(), built.reports.front().mass,
+                             Point::Zero());
   const long n = options.macro_steps;
   double first = meter.all(0).total(), last = 0;
   const double at_start = first;

@@ -206,11 +206,15 @@ struct SmoothRows {
 
 /// Computes work.pressure of the fields that have been laid out.
 template <class B, class Material, int fields>
-void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
-                      const NodalWork<B>& work, const Scalars<B>& carried = {}) {
+void smooth_pressures(const typename B::Exec& exec, const LevelData<B>& level,
+                      const Scalars<B>& carried = {}) {
+  const NodalRows<B>& rows = level.model.rows;
+  const NodalWork<B>& work = level.nodal;
   for_rows<B>(exec, "plica::nodal_volumes", rows, RowDilatations<B, Material, fields>{rows, work});
+  share_slots<B>(exec, level, work.ratio, fields);
   for_rows<B>(exec, "plica::nodal_pressures", rows,
               ExcessPressures<B, Material, fields>{rows, work, carried});
+  share_slots<B>(exec, level, work.records, fields);
   for_rows<B>(exec, "plica::nodal_smooth", rows,
               SmoothRows<B, fields>{rows, work.records, work.pressure});
 }
@@ -223,12 +227,12 @@ void nodal_force(const typename B::Exec& exec, const LevelData<B>& level, const 
   const NodalRows<B>& rows = level.model.rows;
   by_case(rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
     if constexpr (damped)
-      lay_out<B>(exec, rows, level.nodal, {state.u, state.v});
+      lay_out<B>(exec, level, {state.u, state.v});
     else
-      lay_out<B>(exec, rows, level.nodal, {state.u});
+      lay_out<B>(exec, level, {state.u});
     by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
       constexpr int fields = damped ? 2 : 1;
-      if constexpr (smoothed) smooth_pressures<B, Material, fields>(exec, rows, level.nodal);
+      if constexpr (smoothed) smooth_pressures<B, Material, fields>(exec, level);
       by_case(level.flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
         launch_rows<B>(
             exec, "plica::nodal_stresses", level,
@@ -246,13 +250,12 @@ void nodal_tangent(const typename B::Exec& exec, const LevelData<B>& level, cons
   const NodalRows<B>& rows = level.model.rows;
   const bool kept = u.extent(0) == 0;
   if (kept)
-    lay_out<B>(exec, rows, level.nodal, {p});
+    lay_out<B>(exec, level, {p});
   else
-    lay_out<B>(exec, rows, level.nodal, {u, p});
+    lay_out<B>(exec, level, {u, p});
   by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed)
-      smooth_pressures<B, Material, 2>(exec, rows, level.nodal,
-                                       carried_dilatations<B>(rows, level.nodal));
+      smooth_pressures<B, Material, 2>(exec, level, carried_dilatations<B>(rows, level.nodal));
     by_case(damping_scale > 0 && rows.damping.extent(0) > 0,
             [&]<bool damped>(std::bool_constant<damped>) {
               launch_rows<B>(exec, "plica::nodal_tangent", level,
@@ -317,11 +320,13 @@ struct NodalEnergy {
 template <class B, class Material>
 void nodal_energy(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
-  lay_out<B>(exec, rows, level.nodal, {u});
+  lay_out<B>(exec, level, {u});
   by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed)
+    if constexpr (smoothed) {
       for_rows<B>(exec, "plica::nodal_volumes", rows,
                   RowDilatations<B, Material, 1>{rows, level.nodal});
+      share_slots<B>(exec, level, level.nodal.ratio, 1);
+    }
     for_rows<B>(exec, "plica::nodal_energy", rows,
                 NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial,
                                                    carried_dilatations<B>(rows, level.nodal)});
@@ -408,9 +413,9 @@ template <class B, class Material>
 void nodal_stress(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                   const StressFields<B>& fields) {
   const NodalRows<B>& rows = level.model.rows;
-  lay_out<B>(exec, rows, level.nodal, {u});
+  lay_out<B>(exec, level, {u});
   by_smoothing<Material>(rows, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed) smooth_pressures<B, Material, 1>(exec, rows, level.nodal);
+    if constexpr (smoothed) smooth_pressures<B, Material, 1>(exec, level);
     for_rows<B>(exec, "plica::nodal_stress", rows,
                 NodalStress<B, Material, smoothed>{
                     rows, level.nodal, {level.nodal.pressure, 1}, fields, level.stress.relaxed});

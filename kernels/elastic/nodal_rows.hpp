@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/inlining.hpp>
 #include <plica/core/level_data.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -65,7 +66,15 @@ void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const Nodal
              const Vectors<B> (&field)[fields]) {
   LayOut<B, fields> copy{rows.vertex, {}, work.near};
   for (int f = 0; f < fields; ++f) copy.field[f] = field[f];
-  update_vertices<B>(exec, "plica::nodal_layout", rows.slots(), copy);
+  update_vertices<B>(exec, "plica::nodal_layout", static_cast<int>(rows.vertex.extent(0)), copy);
+}
+
+/// Step 1 of a level, one of whose vertices other ranks may own: their values are received first.
+template <class B, int fields>
+void lay_out(const typename B::Exec& exec, const LevelData<B>& level,
+             const Vectors<B> (&field)[fields]) {
+  for (const Vectors<B>& one : field) share_vertices<B>(exec, level, one);
+  lay_out<B>(exec, level.model.rows, level.nodal, field);
 }
 
 /// Computes the gradients G of the fields in `near`, and loads the slots' own values.
@@ -243,6 +252,7 @@ void launch_rows(const typename B::Exec& exec, const char* label, const LevelDat
                  const Integrand& integrand, bool kept = false) {
   const NodalRows<B>& rows = level.model.rows;
   for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand, kept});
+  share_slots<B>(exec, level, level.nodal.records, 12);
   for_rows<B>(exec, "plica::nodal_forces", rows,
               RowForces<B>{rows, level.nodal.records, level.partial});
 }

@@ -66,6 +66,7 @@ void remember_elements(const typename B::Exec& exec, const LevelData<B>& level, 
                        const Scalars<B>& constants) {
   using Kernel = RememberElements<B, Material>;
   const Patches<B>& patches = level.model.patches;
+  if (patches.count == 0) return;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
   launch("plica::remember_elements",
          policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
@@ -96,7 +97,7 @@ template <class B, class Material>
 void remember_domains(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
                       const Scalars<B>& constants) {
   const NodalRows<B>& rows = level.model.rows;
-  lay_out<B>(exec, rows, level.nodal, {u});
+  lay_out<B>(exec, level, {u});
   for_rows<B>(exec, "plica::remember_domains", rows,
               RememberDomains<B, Material>{rows, level.nodal, level.stress, constants});
 }

@@ -104,9 +104,10 @@ void add_relaxed_force(const typename B::Exec& exec, const LevelData<B>& level,
   if (rows.slices == 0)
     return launch_patches<B>(exec, "plica::lost_force", level.model.patches,
                              RelaxedForce<B>{{u}, level.stress.relaxed}, level.partial);
-  lay_out<B>(exec, rows, level.nodal, {u});
+  lay_out<B>(exec, level, {u});
   for_rows<B>(exec, "plica::lost_stresses", rows,
               RowStresses<B, RelaxedRows<B>>{rows, level.nodal, {level.stress.relaxed}});
+  share_slots<B>(exec, level, level.nodal.records, 12);
   for_rows<B>(exec, "plica::lost_forces", rows,
               RowForces<B, true>{rows, level.nodal.records, level.partial});
 }
@@ -119,7 +120,7 @@ void add_relaxed_energy(const typename B::Exec& exec, const LevelData<B>& level,
   if (rows.slices == 0)
     return launch_patches<B>(exec, "plica::lost_energy", level.model.patches,
                              RelaxedEnergy<B>{{u}, level.stress.relaxed}, level.partial);
-  lay_out<B>(exec, rows, level.nodal, {u});
+  lay_out<B>(exec, level, {u});
   for_rows<B>(exec, "plica::lost_energy", rows,
               RelaxedRowEnergy<B>{rows, level.nodal, level.stress.relaxed, level.partial});
 }

@@ -48,4 +48,14 @@ struct SetReaction {
   }
 };
 
+/// Part of a vertex in the force of a set, for sums over all vertices.
+template <class B>
+struct ReactionOfVertex {
+  Indices<B> place;  ///< [vertices] number in the set; -1: the set does not hold the vertex
+  SetReaction<B> set;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int a) const {
+    return place(a) < 0 ? Sums<6>{} : set(place(a));
+  }
+};
+
 }  // namespace plica

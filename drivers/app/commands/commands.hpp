@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <plica/core/ranks.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ enum class ExitStatus {
   failed = 1,
   bad_input = 2,      ///< bad arguments, scene or mesh, or a refused step or combination
   diverged = 3,       ///< the run was stopped; its last good state is on disk
+  no_mpi = 4,         ///< several processes were started, of a program built without MPI
   interrupted = 130,  ///< stopped by Ctrl-C; the files are complete up to the stop
 };
 
@@ -40,6 +42,7 @@ struct SceneArguments {
   std::vector<Override> overrides;
   std::string precision;  ///< float or double; empty: double, or a checkpoint's
   bool json = false;
+  int ranks_planned = 0;  ///< number of ranks that `plica explain` plans for; 0: none
   KokkosArguments kokkos;
 };
 
@@ -53,6 +56,7 @@ struct RunArguments : SceneArguments {
   bool quiet = false;
   bool time_stages = false;        ///< true: times each stage on a GPU too, which slows the run
   std::vector<std::string> words;  ///< the command line as it was given
+  Ranks* ranks = nullptr;          ///< ranks that run the scene together; null: one process
 };
 
 /// Arguments of `plica study`, besides those of a run.

@@ -9,6 +9,8 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
 namespace plica::app {
@@ -26,6 +28,13 @@ Plan plan_of(const Scene& scene, const Simulation<B>& simulation, const Machine&
           simulation.him(),
           machine.choice,
           simulation.parts()};
+}
+
+// Returns what each of several ranks would have of level 0
+std::vector<RankPlan> planned_ranks(const Scene& scene, int count) {
+  if (const std::string why = refused_by_ranks(scene.problem); !why.empty())
+    throw located(InputError(why), scene.source);
+  return plan_ranks(scene.problem.body.levels.front(), element_of(scene.problem.body, 0), count);
 }
 
 void check_its_study(const Scene& scene) {
@@ -83,7 +92,9 @@ std::string checked_json(const Scene& scene, const std::string& precision) {
 ExitStatus explain(const SceneArguments& arguments) {
   with_simulation(arguments,
                   [&](const Scene& scene, const auto& simulation, const Machine& machine, double) {
-                    const Plan plan = plan_of(scene, simulation, machine);
+                    Plan plan = plan_of(scene, simulation, machine);
+                    if (arguments.ranks_planned > 0)
+                      plan.ranks = planned_ranks(scene, arguments.ranks_planned);
                     std::cout << (arguments.json ? plan_json(scene, plan) : plan_text(scene, plan));
                   });
   return ExitStatus::done;

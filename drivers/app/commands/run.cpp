@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <csignal>
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
@@ -87,6 +88,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.choice = machine.choice;
   summary.cycle = cycle_name(scene, summary.choice);
   summary.levels = in_input_numbers(simulation.levels(), scene);
+  summary.ranks = simulation.ranks();
   summary.stages = output.stages();
   summary.frames = output.files().frames();
   summary.last_good_time = output.files().last_time();
@@ -253,6 +255,44 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   return status_of_run(end);
 }
 
+[[noreturn]] void refuse_on_ranks(const std::string& what) {
+  throw InputError(what + " needs one process; expected a run without it");
+}
+
+// Runs a scene on several ranks. All of them read it and set it up; rank 0 then does what a single
+// process does, and the others follow
+ExitStatus run_on_ranks(const RunArguments& arguments) {
+  Ranks& ranks = *arguments.ranks;
+  const bool leads = ranks.own() == 0;
+  std::optional<InterruptWatch> watch;
+  if (leads)
+    watch.emplace();
+  else
+    std::signal(SIGINT, SIG_IGN);  // rank 0 ends the run
+  SetUpProgress progress(arguments.quiet || !leads);
+  progress.phase("reading the scene and its meshes");
+  Scene scene;
+  ranks.together([&] {
+    if (!arguments.resume.empty()) refuse_on_ranks("--resume");
+    if (!arguments.checkpoint.empty()) refuse_on_ranks("--checkpoint");
+    scene = load_scene(arguments.scene, arguments.overrides);
+    if (!scene.output.probes.empty()) refuse_on_ranks("output.probes");
+    if (leads && !arguments.force) refuse_to_replace(folder_of(arguments));
+  });
+  if (leads) warn(scene);
+  const auto action = [&](const Scene&, auto& simulation, const Machine& machine,
+                          double set_up_time) {
+    if (!leads) return static_cast<ExitStatus>(simulation.follow());
+    simulation.lead();
+    const ExitStatus status = simulate(scene, simulation, machine, set_up_time, arguments,
+                                       new_checkpoint(scene, arguments), *watch);
+    simulation.dismiss(static_cast<int>(status));
+    return status;
+  };
+  return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action,
+                         {true, {}, &ranks});
+}
+
 }  // namespace
 
 Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
@@ -292,6 +332,7 @@ Interval checkpoint_interval(const std::string& text) {
 }
 
 ExitStatus run(const RunArguments& arguments) {
+  if (arguments.ranks) return run_on_ranks(arguments);
   InterruptWatch watch;
   SetUpProgress progress(arguments.quiet);
   const bool resumed = !arguments.resume.empty();

@@ -80,6 +80,7 @@ struct Machine {
 struct CycleAuto {
   bool trials = true;                      ///< false: sets up level 0 alone, without trials
   std::optional<CycleChoice> choice = {};  ///< choice of the run that is resumed
+  Ranks* ranks = nullptr;                  ///< ranks that share the body; null: one process
 };
 
 /// Makes the simulation of a scene, which load_scene() has validated. Returns what cycle auto has
@@ -88,6 +89,9 @@ template <class B>
 std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene,
                                   const CycleAuto& made) {
   const Problem& problem = scene.problem;
+  if (made.ranks)
+    return simulation.emplace(problem, typename B::Exec{}, *made.ranks, Validation::done),
+           std::nullopt;
   if (problem.integration.cycle != "auto")
     return simulation.emplace(problem, typename B::Exec{}, Validation::done), std::nullopt;
   std::optional<CycleChoice> choice = made.choice;

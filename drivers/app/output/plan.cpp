@@ -189,33 +189,87 @@ std::string parts_text(const Plan& plan) {
          part_columns.text(plan.parts);
 }
 
+// Returns the size of what a rank receives for a force [bytes]
+double bytes_of_force(const Plan& plan, const RankPlan& rank) {
+  const bool nodal = plan.levels.front().element == name_of(Element::nodal);
+  const double numbers = nodal ? 3 + 12 : 3;  // numbers of a row: a vertex and a record, or a share
+  return numbers * (plan.precision == "float" ? 4 : 8) * static_cast<double>(rank.received);
+}
+
+std::string ranks_text(const Plan& plan) {
+  if (plan.ranks.empty()) return {};
+  std::vector<std::vector<std::string>> rows = {{"", "mean", "most"}};
+  double imbalance = 1;
+  const auto add = [&](const char* what, const auto& value, const auto& shown) {
+    double sum = 0, most = 0;
+    for (const RankPlan& rank : plan.ranks) {
+      const auto one = static_cast<double>(value(rank));
+      sum += one, most = std::max(most, one);
+    }
+    const double mean = sum / static_cast<double>(plan.ranks.size());
+    rows.push_back({what, shown(mean), shown(most)});
+    return mean > 0 ? most / mean : 1;
+  };
+  const auto number = [](double x) { return fmt::format("{:.0f}", x); };
+  imbalance = add(
+      "tetrahedra", [](const RankPlan& r) { return r.tets; }, number);
+  add(
+      "vertices", [](const RankPlan& r) { return r.vertices; }, number);
+  add(
+      "copies of others' vertices", [](const RankPlan& r) { return r.copies; }, number);
+  add(
+      "neighbours", [](const RankPlan& r) { return r.neighbours; }, number);
+  add(
+      "rows received", [](const RankPlan& r) { return r.received; }, number);
+  add(
+      "received for a force", [&](const RankPlan& r) { return bytes_of_force(plan, r); },
+      [](double x) { return in_bytes(static_cast<std::size_t>(x)); });
+  return fmt::format("\nOn {} ranks, imbalance {:.2f}\n", plan.ranks.size(), imbalance) +
+         text_table(rows, "<>>");
+}
+
+Json ranks_json(const Plan& plan) {
+  Json all = Json::array();
+  for (const RankPlan& r : plan.ranks)
+    all.push_back({{"tets", r.tets},
+                   {"vertices", r.vertices},
+                   {"copies", r.copies},
+                   {"neighbours", r.neighbours},
+                   {"rows_sent", r.sent},
+                   {"rows_received", r.received},
+                   {"bytes_received", bytes_of_force(plan, r)}});
+  return all;
+}
+
 }  // namespace
 
 std::string plan_text(const Scene& scene, const Plan& plan) {
   return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") +
-         levels_text(scene, plan) + slivers_text(plan) + transfers_text(plan) + parts_text(plan);
+         levels_text(scene, plan) + slivers_text(plan) + transfers_text(plan) + parts_text(plan) +
+         ranks_text(plan);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan) {
-  const Json json = {{"name", scene.name},
-                     {"scene", scene.file},
-                     {"duration", scene.duration},
-                     {"macro_step", plan.macro_step},
-                     {"macro_steps", steps_of(scene, plan.macro_step)},
-                     {"cycle", cycle_name(scene, plan.choice)},
-                     {"choice", choice_json(plan.choice)},
-                     {"precision", plan.precision},
-                     {"backend", plan.backend},
-                     {"threads", plan.threads},
-                     {"levels", levels_json(plan.levels)},
-                     {"him", plan.him ? Json{{"product", plan.him->product},
-                                             {"bound", plan.him->bound},
-                                             {"coarsest_vertices", plan.him->coarsest},
-                                             {"all_modes", plan.him->all_modes},
-                                             {"advice", him_advice(scene.problem, *plan.him,
-                                                                   plan.levels, plan.macro_step)}}
-                                      : Json(nullptr)},
-                     {"parts", part_columns.json(plan.parts)}};
+  Json json = {{"name", scene.name},
+               {"scene", scene.file},
+               {"duration", scene.duration},
+               {"macro_step", plan.macro_step},
+               {"macro_steps", steps_of(scene, plan.macro_step)},
+               {"cycle", cycle_name(scene, plan.choice)},
+               {"choice", choice_json(plan.choice)},
+               {"precision", plan.precision},
+               {"backend", plan.backend},
+               {"threads", plan.threads},
+               {"levels", levels_json(plan.levels)},
+               {"him", plan.him ? Json{{"product", plan.him->product},
+                                       {"bound", plan.him->bound},
+                                       {"coarsest_vertices", plan.him->coarsest},
+                                       {"all_modes", plan.him->all_modes},
+                                       {"advice", him_advice(scene.problem, *plan.him, plan.levels,
+                                                             plan.macro_step)}}
+                                : Json(nullptr)},
+               {"parts", part_columns.json(plan.parts)}};
+  if (!plan.ranks.empty()) json["ranks"] = ranks_json(plan);
   return json_text(json);
 }
 

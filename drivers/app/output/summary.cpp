@@ -229,6 +229,15 @@ std::string summary_json(const Scene& scene, const Summary& s,
                     {"pieces", s.cuts->pieces}};
   if (s.followed)
     json["followed"] = {{"moves", s.followed->moves}, {"wall_time", s.followed->seconds}};
+  if (s.ranks) {
+    const double time = std::max(s.wall_time, std::numeric_limits<double>::min());
+    json["ranks"] = {{"count", s.ranks->count},
+                     {"imbalance", s.ranks->imbalance},
+                     {"messages", s.ranks->messages},
+                     {"bytes", s.ranks->bytes},
+                     {"wait_share", s.ranks->waited / time},
+                     {"most_wait_share", s.ranks->most_waited / time}};
+  }
   return json_text(json);
 }
 

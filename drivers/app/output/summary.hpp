@@ -5,6 +5,7 @@
 #include <optional>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/level/part_of_level.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
@@ -31,6 +32,7 @@ struct Summary {
   std::string precision, backend;
   int threads = 0;
   std::optional<double> wait_share;   ///< see CoreWait::share()
+  std::optional<RankReport> ranks;    ///< how ranks shared the body; none: one process
   std::string cycle;                  ///< name of the cycle that ran
   std::optional<CycleChoice> choice;  ///< choice of cycle auto; none: another cycle
   std::vector<LevelReport> levels;
@@ -89,6 +91,7 @@ struct Plan {
   std::optional<HimReport> him;
   std::optional<CycleChoice> choice;
   std::vector<Part> parts;
+  std::vector<RankPlan> ranks = {};  ///< share of each of several ranks; empty: not asked for
 };
 
 /// Returns the output of `plica explain` as text in 100 columns.

@@ -71,6 +71,8 @@ constexpr Status statuses[] = {
     {ExitStatus::bad_input,
      "bad arguments, scene or mesh, or a step or combination that is refused; nothing was run"},
     {ExitStatus::diverged, "the run was stopped; its last good state is on disk"},
+    {ExitStatus::no_mpi,
+     "`mpirun` started several processes of a program that was built without MPI"},
     {ExitStatus::interrupted, "stopped by Ctrl-C; the files are complete up to there"},
 };
 

@@ -321,6 +321,25 @@ TEST_F(Program, ExplainsTheSpaceForSliversAboveAGivenMesh) {
   EXPECT_EQ(levels[2]["kind"], "mesh");
 }
 
+TEST_F(Program, ExplainsWhatRanksWouldHave) {
+  const std::string organ = PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk";
+  const auto explain = [&](const std::string& last) {
+    return plica({"explain", scene, "--set", "integration={cycle: single}", "--set",
+                  "body.levels=[{file: " + organ + "}]", "--ranks", "4", last});
+  };
+  const Json json = Json::parse(explain("--json").output);
+  ASSERT_EQ(json["ranks"].size(), 4u);
+  long tets = 0, sent = 0, received = 0;
+  for (const Json& rank : json["ranks"])
+    tets += rank["tets"].get<long>(), sent += rank["rows_sent"].get<long>(),
+        received += rank["rows_received"].get<long>();
+  EXPECT_EQ(tets, json["levels"][0]["tets"]);
+  EXPECT_GT(sent, 0);
+  EXPECT_EQ(sent, received);
+  EXPECT_NE(explain("--set=duration=1ms").output.find("On 4 ranks, imbalance 1."),
+            std::string::npos);
+}
+
 TEST_F(Program, ChecksWithoutRunning) {
   EXPECT_EQ(plica({"check", scene}).status, 0);
   EXPECT_EQ(Json::parse(plica({"check", scene, "--json"}).output)["sound"], true);

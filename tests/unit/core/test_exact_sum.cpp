@@ -138,4 +138,32 @@ TEST(ExactSum, KnowsWhatIsNotFinite) {
   EXPECT_EQ(bits(sum({-nan, infinity})), want);
 }
 
+/// Sum of terms that several ranks have: their integers are added number by number.
+double sum_of_parts(const std::vector<double>& terms, std::size_t parts) {
+  std::vector<std::int64_t> all(ExactSum::words, 0), own(ExactSum::words);
+  for (std::size_t part = 0; part < parts; ++part) {
+    ExactSum some;
+    for (std::size_t i = part; i < terms.size(); i += parts) some.add(terms[i]);
+    some.store(own.data());
+    for (std::size_t i = 0; i < own.size(); ++i) all[i] += own[i];
+  }
+  return ExactSum::load(all.data()).take();
+}
+
+TEST(ExactSum, IsThatOfTheIntegersOfItsParts) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<double> terms(random() % 40);
+    for (double& x : terms) x = any_double(random);
+    for (const std::size_t parts : {1u, 2u, 7u, 50u})
+      EXPECT_EQ(bits(sum_of_parts(terms, parts)), bits(sum(terms)));
+  }
+  const std::vector<std::vector<double>> special = {{1, infinity, infinity},      {-infinity, 2},
+                                                    {infinity, 0, -infinity},     {nan, 1},
+                                                    {largest, largest, -largest}, {-0.0, -0.0}};
+  for (const std::vector<double>& terms : special)
+    for (const std::size_t parts : {1u, 2u, 3u})
+      EXPECT_EQ(bits(sum_of_parts(terms, parts)), bits(sum(terms)));
+}
+
 }  // namespace

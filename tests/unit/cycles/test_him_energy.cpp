@@ -21,7 +21,7 @@ template <class B>
 struct HimRun {
   explicit HimRun(const Problem& problem)
       : built(build_hierarchy<B>(problem, {})),
-        meter(*built.hierarchy, built.meshes.front(), problem.gravity),
+        meter(*built.hierarchy, built.meshes.front(), built.reports.front().mass, problem.gravity),
         mass(lumped_masses(built.meshes[0], {problem.body.material.density})) {}
   BuiltHierarchy<B> built;
   EnergyMeter<B> meter;

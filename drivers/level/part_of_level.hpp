@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/rank_part.hpp>
+#include <plica/core/ranks.hpp>
+#include <plica/drivers/elastic/level_constants.hpp>
+#include <plica/drivers/loads/assemble_loads.hpp>
+#include <span>
+#include <vector>
+
+// How a mesh is shared out to ranks. Each rank knows the whole mesh during set-up, and finds what
+// it sends and receives without asking the others.
+namespace plica {
+
+/// Ranges of a mesh that ranks own, [ranks + 1] each: rank r has those from r to before r + 1.
+struct RankRanges {
+  std::vector<int> vertex;  ///< first vertex of each rank, a whole number of blocks
+  std::vector<int> run;     ///< first run of tetrahedra of each rank
+
+  int ranks() const { return static_cast<int>(vertex.size()) - 1; }
+  int owner(int v) const;         ///< returns the rank that owns a vertex
+  int owner_of_run(int p) const;  ///< returns the rank that owns a run
+};
+
+/// Shares a mesh out, so that all ranks have about as many tetrahedra.
+/// @param runs   all tetrahedra, see element_runs()
+/// @param block  number of vertices that are owned together, see vertex_block
+RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks,
+                       int block = 512);
+
+/// Part of a mesh that one rank has, and what it exchanges with others.
+struct LevelPart {
+  Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
+  RankPart part;           ///< numbers of its vertices and tetrahedra
+  TetMesh mesh;            ///< vertices and tetrahedra of the part, with local numbers
+  /// own runs, of local tetrahedra; of linear elements
+  std::vector<std::vector<int>> runs;
+  HaloRows shares;  ///< rows of `partial`, of linear elements
+  /// Vertex and row of each share in the order in which a vertex adds them, of linear elements
+  std::vector<int> share_vertex, share_row;
+  HaloRows vertices;  ///< rows of vertices, of nodal elements
+};
+
+/// Returns the part of rank `own`.
+///
+/// Linear elements: the tetrahedra of own runs, with their vertices and all owned ones. Nodal ones:
+/// all tetrahedra at owned vertices.
+LevelPart part_of_level(const TetMesh& mesh, Element element,
+                        const std::vector<std::vector<int>>& runs, const RankRanges& ranges,
+                        int own);
+/// Returns this rank's part of a level in a simulation of several ranks.
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block = 512);
+
+/// Returns the constants of the part's vertices and tetrahedra.
+LevelConstants constants_of_part(const LevelConstants& whole, const RankPart& part);
+/// Returns the loads on the part's vertices.
+std::vector<AssembledLoad> loads_of_part(const std::vector<AssembledLoad>& whole,
+                                         const RankPart& part);
+/// Returns the sets with the vertices that the rank owns, as local numbers.
+std::vector<HeldSet> held_by_part(const std::vector<HeldSet>& whole, const RankPart& part);
+
+/// Numbers of a mesh that is shared out to ranks.
+struct RankPlan {
+  std::int64_t tets = 0, vertices = 0;  ///< numbers of what it owns
+  std::int64_t copies = 0;              ///< vertices that it has besides
+  std::int64_t sent = 0, received = 0;  ///< rows of each force
+  int neighbours = 0;                   ///< ranks that it receives rows from
+};
+
+/// Returns for each rank what it would have and exchange.
+std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks, int block = 512);
+
+}  // namespace plica

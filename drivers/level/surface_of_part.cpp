@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/core/error.hpp>
+#include <plica/core/row_ranges.hpp>
+#include <plica/drivers/level/surface_of_part.hpp>
+
+namespace plica {
+
+SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
+                            const RankPart& part, Element element, int own) {
+  const std::vector<int> at = vertices_at(surface.vertices, mesh);
+  if (at.empty())
+    throw InputError(
+        "body.surface has points that are at no vertex of level 0, which needs one process; "
+        "expected body.surface: boundary, or none");
+  SurfacePart made;
+  for (std::size_t p = 0; p < at.size(); ++p) {
+    const auto found = std::ranges::lower_bound(part.vertex, at[p]);
+    if (found == part.vertex.end() || *found != at[p]) continue;
+    const int v = static_cast<int>(found - part.vertex.begin());
+    const bool is_owned = part.owner[index_of(v)] == own;
+    if (element == Element::nodal && !is_owned) continue;
+    if (is_owned) made.owned.push_back(static_cast<int>(made.points.size()));
+    if (element == Element::linear) made.counted.push_back(is_owned ? 1 : 0);
+    made.points.push_back(static_cast<int>(p));
+    made.surface.vertices.push_back(surface.vertices[p]);
+    const int beside = std::max(0, v - 1);  // read with the weight 0
+    made.embedding.vertices.push_back({beside, beside, beside, v});
+    made.embedding.weights.push_back({0, 0, 0, 1});
+  }
+  return made;
+}
+
+}  // namespace plica

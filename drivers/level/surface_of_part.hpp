@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/rank_part.hpp>
+#include <plica/drivers/elastic/elements.hpp>
+#include <plica/meshes/embedding.hpp>
+#include <vector>
+
+namespace plica {
+
+/// Points of the body's surface that one of several ranks has.
+struct SurfacePart {
+  std::vector<int> points;   ///< numbers in the whole surface, ascending
+  std::vector<int> counted;  ///< [points] 1: at an owned vertex; empty: all are
+  std::vector<int> owned;    ///< places in `points` of those at owned vertices
+  TriangleSurface surface;   ///< the points, without triangles
+  Embedding embedding;       ///< each at its vertex of the part
+};
+
+/// Returns the points at vertices where forces are complete: with linear elements at all vertices
+/// of the part, with nodal ones at owned vertices. Throws InputError for a surface with points that
+/// are at no vertex.
+SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
+                            const RankPart& part, Element element, int own);
+
+}  // namespace plica

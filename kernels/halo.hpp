@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <memory>
+#include <plica/core/fields.hpp>
+#include <plica/core/level_data.hpp>
+#include <plica/core/rank_part.hpp>
+#include <plica/core/ranks.hpp>
+#include <plica/kernels/vectors.hpp>
+#include <string>
+
+// Rows of arrays that are copied from the ranks that own them. Neighbours send them packed; what
+// comes from one neighbour is consecutive:
+//
+//   own rows     r0 r1 r2 r3 r4 r5 ...
+//                 |     |  |             pack, by `sent`
+//   packed       r0 | r3 r4              to rank 1 | to rank 4
+//
+//   array        | from ranks below | own rows | from ranks above |
+namespace plica {
+
+/// Packs rows of `width` numbers.
+template <class Real, class Rows>
+struct PackRows {
+  const Real* from;
+  Rows sent;
+  Real* to;
+  int width;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const Real* const row = from + static_cast<std::ptrdiff_t>(sent(i)) * width;
+    Real* const packed = to + static_cast<std::ptrdiff_t>(i) * width;
+    for (int k = 0; k < width; ++k) packed[k] = row[k];
+  }
+};
+
+/// Exchange of rows of arrays that are laid out alike.
+template <class B>
+class Halo {
+ public:
+  using Real = typename B::Real;
+  using Exec = typename B::Exec;
+
+  /// Makes the messages for rows of each width. All ranks make them in the same order.
+  /// @param what    names the rows in messages: "shares of level 0"
+  /// @param widths  numbers in a row, ascending
+  /// @param place   array whose rows are received in place; null: any array's may be
+  Halo(Ranks& ranks, const std::string& what, HaloRows rows, const std::vector<int>& widths,
+       Real* place = nullptr)
+      : rows_(std::move(rows)),
+        place_(place),
+        staged_(!B::on_host && !ranks.device_pointers()),
+        sent_(to_device<Indices<B>>("halo.sent", rows_.sent)),
+        out_(field("plica::halo.out", rows_.sent.size(), widths)),
+        in_(field("plica::halo.in", place ? 0 : static_cast<std::size_t>(rows_.received()),
+                  widths)) {
+    if (staged_)
+      host_out_.resize(out_.extent(0)),
+          host_in_.resize(static_cast<std::size_t>(rows_.received() * widths.back()));
+    for (const int width : widths) open(ranks, what, width);
+  }
+
+  /// Receives the rows of `array` that other ranks own, of `width` numbers each. Waits.
+  void exchange(const Exec& exec, Real* array, int width) const {
+    const int count = static_cast<int>(rows_.sent.size());
+    update_vertices<B>(exec, "plica::pack_rows", count,
+                       PackRows<Real, Indices<B>>{array, sent_, out_.data(), width});
+    fence(exec, "plica::halo");
+    const std::size_t bytes = sizeof(Real) * static_cast<std::size_t>(width);
+    if (staged_) fields::download(exec, host_out_.data(), out_.data(), rows_.sent.size() * bytes);
+    Exchange& messages = *exchange_.at(width);
+    messages.start();
+    messages.wait();
+    place_rows(exec, array, width);
+  }
+
+ private:
+  HaloRows rows_;
+  Real* place_;
+  bool staged_;  // messages are in the host's memory, and the arrays are not
+  Indices<B> sent_;
+  Scalars<B> out_, in_;  // packed rows
+  mutable std::vector<Real> host_out_, host_in_;
+  std::map<int, std::unique_ptr<Exchange>> exchange_;  // by width
+
+  static Scalars<B> field(const char* name, std::size_t rows, const std::vector<int>& widths) {
+    return zeros<Scalars<B>>(name, rows * static_cast<std::size_t>(widths.back()));
+  }
+
+  void open(Ranks& ranks, const std::string& what, int width) {
+    std::vector<Outgoing> sent;
+    std::vector<Incoming> received;
+    const std::size_t row = sizeof(Real) * static_cast<std::size_t>(width);
+    auto* const out = reinterpret_cast<std::byte*>(staged_ ? host_out_.data() : out_.data());
+    auto* const in = reinterpret_cast<std::byte*>(staged_  ? host_in_.data()
+                                                  : place_ ? place_ + width * rows_.own
+                                                           : in_.data());
+    for (std::size_t n = 0; n < rows_.rank.size(); ++n) {
+      const auto part = [&](std::byte* all, const std::vector<int>& first) {
+        return std::span(all + row * static_cast<std::size_t>(first[n]),
+                         row * static_cast<std::size_t>(first[n + 1] - first[n]));
+      };
+      if (const auto its = part(out, rows_.first_sent); !its.empty())
+        sent.push_back({rows_.rank[n], its});
+      if (const auto its = part(in, rows_.first_received); !its.empty())
+        received.push_back({rows_.rank[n], its});
+    }
+    exchange_[width] = ranks.open(what, std::move(sent), std::move(received));
+  }
+
+  /// Copies what was received to the rows of an array.
+  void place_rows(const Exec& exec, Real* array, int width) const {
+    if (place_ && !staged_) return;
+    const std::size_t row = sizeof(Real) * static_cast<std::size_t>(width);
+    const auto put = [&](int first, int last, int to) {
+      const std::ptrdiff_t begin = std::ptrdiff_t{first} * width;
+      const std::size_t bytes = row * static_cast<std::size_t>(last - first);
+      if (bytes == 0) return;
+      Real* const at = array + std::ptrdiff_t{to} * width;
+      if (staged_)
+        fields::upload<typename B::Memory>(at, host_in_.data() + begin, bytes);
+      else
+        fields::copy_bytes(exec, at, in_.data() + begin, bytes);
+    };
+    put(0, rows_.before, 0);
+    put(rows_.before, rows_.received(), rows_.before + rows_.own);
+  }
+};
+
+/// Part of a level on one of several ranks, and its messages.
+template <class B>
+struct RankLevel {
+  Ranks* ranks;                       ///< ranks that share the level
+  RankPart part;                      ///< vertices and elements that this one has
+  Indices<B> number;                  ///< [local vertices] number in the whole mesh
+  std::unique_ptr<Halo<B>> shares;    ///< rows of `partial`, of linear elements; none: nodal ones
+  std::unique_ptr<Halo<B>> vertices;  ///< rows of vertices, of nodal elements
+  std::unique_ptr<Halo<B>> slots;     ///< slots of nodal elements
+};
+
+/// Returns the vertices of a level, of which sums are taken over those that this rank owns.
+template <class B>
+Items vertices_of(const LevelData<B>& level) {
+  if (!level.ranks) return level.model.vertices;
+  const RankPart& part = level.ranks->part;
+  return {level.model.vertices, part.first_owned, part.last_owned};
+}
+
+/// Returns the ranks that share a level; null: one process has all of it.
+template <class B>
+Ranks* ranks_of(const LevelData<B>& level) {
+  return level.ranks ? level.ranks->ranks : nullptr;
+}
+
+/// Receives the rows of `partial` that other ranks compute; of linear elements. On one process it
+/// does nothing.
+template <class B>
+void complete_shares(const typename B::Exec& exec, const LevelData<B>& level) {
+  if (level.ranks && level.ranks->shares)
+    level.ranks->shares->exchange(exec, level.partial.data(), 3);
+}
+
+/// Receives the values of a field at vertices that other ranks own; of nodal elements. On one
+/// process it does nothing.
+template <class B>
+void share_vertices(const typename B::Exec& exec, const LevelData<B>& level,
+                    const Vectors<B>& field) {
+  if (level.ranks && level.ranks->vertices) level.ranks->vertices->exchange(exec, field.data(), 3);
+}
+
+/// Receives the numbers of slots that other ranks own, `width` for each; of nodal elements. On one
+/// process it does nothing.
+template <class B>
+void share_slots(const typename B::Exec& exec, const LevelData<B>& level, const Scalars<B>& numbers,
+                 int width) {
+  if (level.ranks && level.ranks->slots) level.ranks->slots->exchange(exec, numbers.data(), width);
+}
+
+}  // namespace plica

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <plica/core/baton_ranks.hpp>
+#include <plica/drivers/elastic/materials.hpp>
+#include <plica/drivers/level/part_of_level.hpp>
+#include <plica/drivers/run/diagnose.hpp>
+#include <plica/drivers/run/simulation.hpp>
+#include <plica/kernels/contact/shapes/sphere.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/jitter.hpp>
+#include <plica/meshes/organs.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/refusal.hpp"
+
+// A body that several ranks share has the bits of one process.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+constexpr int macro_steps = 6;
+
+TetMesh liver() { return read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk"); }
+
+/// A small lump of two regions; with 12 cells across it has 5 blocks of vertices, with 8 it has 2.
+TetMesh lump(int cells = 12) { return jittered(blob_mesh(Point::Zero(), 0.1, cells), 0.2); }
+
+/// An organ that is held at one end, moved at the other and pulled, with a ball in its side.
+Problem organ(const TetMesh& mesh, const std::string& element) {
+  Problem p = body_of({mesh}, "neo_hookean");
+  p.body.element = {element};
+  const Box box = bounding_box(mesh.vertices);
+  const Point size = box.max - box.min;
+  const auto part = [&](double from, double to) {
+    Box chosen{box.min - size, box.max + size};
+    chosen.min[0] = box.min[0] + from * size[0], chosen.max[0] = box.min[0] + to * size[0];
+    return chosen;
+  };
+  p.gravity = {1.3, 0.4, -9.7};
+  p.body.initial.velocity = {0.1, -0.2, 0.05};
+  p.body.damping = {2, 0};
+  p.body.fixed = {part(-1, 0.1)};
+  PrescribedMotion given{part(0.9, 2), SineMotion{0.02 * size, 20, 0.3}, {}};
+  p.body.prescribed = {given};
+  p.body.loads = {{part(0.4, 0.6), TotalForce{{0.5, 0.2, 0.1}}, {}}};
+  Point top = box.min;  // of the middle part, which the ball touches
+  for (const Point& x : mesh.vertices)
+    if (std::abs(x[0] - (box.min + box.max)[0] / 2) < 0.2 * size[0] && x[2] > top[2]) top = x;
+  const double radius = 0.3 * size[2];
+  ObstacleOptions ball{SphereOptions{top + Point(0, 0, radius - 0.005 * size[2]), radius}, 0.4,
+                       SteadyMotion(Point(0.1, 0, -0.2))};
+  p.contact.obstacles = {ball};
+  p.contact.whole_surface = "never";
+  p.body.surface = boundary_surface(mesh).surface;
+  return p;
+}
+
+/// All that a run comes to.
+struct Outcome {
+  std::vector<Point> positions, velocities;
+  std::vector<double> numbers;  ///< steps, energies, forces
+};
+
+/// Adds the numbers that all ranks know.
+template <class B>
+void add_numbers(const Simulation<B>& simulation, std::vector<double>& numbers) {
+  const auto add = [&](const Point& p) { numbers.insert(numbers.end(), {p[0], p[1], p[2]}); };
+  const Energies e = simulation.energies();
+  numbers.insert(numbers.end(),
+                 {simulation.macro_step(), simulation.levels()[0].critical_step, e.kinetic,
+                  e.elastic, e.potential, e.contact, simulation.friction_work()});
+  for (const Wrench& w : simulation.wrenches()) add(w.force), add(w.torque);
+  for (const Reaction& r : simulation.reactions()) add(r.force), add(r.torque);
+  for (const ToolState& t : simulation.tools()) add(t.displacement), add(t.velocity);
+  for (const double depth : simulation.contact_depths()) numbers.push_back(depth);
+  for (const double part : simulation.slipping()) numbers.push_back(part);
+}
+
+bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+bool equal_bits(const std::vector<Point>& a, const std::vector<Point>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
+}
+
+template <class B>
+void take_steps(Simulation<B>& simulation) {
+  for (int n = 0; n < macro_steps; ++n)
+    if (const auto bad = simulation.step_checked()) {
+      ADD_FAILURE() << bad->text();
+      return;
+    }
+}
+
+template <class B>
+Outcome on_one_process(const Problem& problem) {
+  Simulation<B> simulation(problem);
+  take_steps(simulation);
+  Outcome outcome{simulation.positions(), simulation.velocities(), {}};
+  add_numbers(simulation, outcome.numbers);
+  return outcome;
+}
+
+/// Expects that the ranks together have the same outcome, and each the same numbers.
+template <class B>
+void expect_on_ranks(const Outcome& expected, const Problem& problem, int count) {
+  SCOPED_TRACE(std::to_string(count) + " ranks");
+  Outcome all;
+  all.positions.resize(expected.positions.size(), Point::Zero());
+  all.velocities = all.positions;
+  BatonRanks(count).run([&](Ranks& ranks) {
+    Simulation<B> simulation(problem, typename B::Exec(), ranks);
+    take_steps(simulation);
+    const std::vector<Point> x = simulation.positions(), v = simulation.velocities();
+    const std::vector<int> numbers = simulation.numbers();
+    ASSERT_EQ(x.size(), numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      all.positions[static_cast<std::size_t>(numbers[i])] = x[i],
+      all.velocities[static_cast<std::size_t>(numbers[i])] = v[i];
+    std::vector<double> own;
+    add_numbers(simulation, own);
+    EXPECT_TRUE(equal_bits(own, expected.numbers)) << "rank " << ranks.own();
+  });
+  EXPECT_TRUE(equal_bits(all.positions, expected.positions));
+  EXPECT_TRUE(equal_bits(all.velocities, expected.velocities));
+}
+
+template <class B>
+class SeveralRanks : public testing::Test {};
+TYPED_TEST_SUITE(SeveralRanks, EachBackend);
+
+TYPED_TEST(SeveralRanks, HaveTheBitsOfOne) {
+  const TetMesh mesh = liver();
+  for (const char* element : {"linear", "nodal"}) {
+    SCOPED_TRACE(element);
+    const Problem problem = organ(mesh, element);
+    const Outcome one = on_one_process<TypeParam>(problem);
+    const std::vector<double>& numbers = one.numbers;
+    EXPECT_NE(numbers[5], 0) << "the ball does not touch";
+    for (const int count : {1, 2, 3, 7, 16}) expect_on_ranks<TypeParam>(one, problem, count);
+  }
+}
+
+TYPED_TEST(SeveralRanks, HaveTheBitsOfOneInEachMaterial) {
+  for (const MaterialInfo& info : material_list())
+    for (const char* element : {"linear", "nodal"}) {
+      SCOPED_TRACE(std::string(info.name) + ", " + element);
+      Problem problem = organ(lump(8), element);
+      problem.contact = {}, problem.body.surface.reset();
+      problem.body.material = complete({std::string(info.name), 20e3, 0.35, 1000});
+      if (info.has_fibres)
+        problem.body.material.fibres = FibreOptions{{1, 0.3, 0}, Point(0, 1, 0.2), {}};
+      expect_on_ranks<TypeParam>(on_one_process<TypeParam>(problem), problem, 2);
+    }
+}
+
+// Options of an explicit level: damping by stiffness, relaxation, smoothed pressures,
+// regions, sliding vertices, a turn, a tool with mass, other integrators.
+TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOption) {
+  const std::map<std::string, std::function<void(Problem&)>> options = {
+      {"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-5; }},
+      {"relaxation",
+       [](Problem& p) {
+         p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
+       }},
+      {"smoothed pressures", [](Problem& p) { p.body.material.poisson_ratio = 0.495; }},
+      {"regions",
+       [](Problem& p) {
+         p.body.regions["inclusion"].young_modulus = 60e3;
+         p.body.regions["inclusion"].damping.mass = 9;
+       }},
+      {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
+      {"turn",
+       [](Problem& p) {
+         p.body.prescribed.front().motion = {};
+         p.body.prescribed.front().rotate = Turn{Point::UnitX(), {}, Point::Zero(), SteadyTurn{3}};
+       }},
+      {"tool with mass",
+       [](Problem& p) {
+         p.contact.obstacles.front().mass = 0.05;
+         p.contact.obstacles.front().coupling.stiffness = 50;
+       }},
+      {"central_difference", [](Problem& p) { p.integration.integrator = {"central_difference"}; }},
+      {"rk4", [](Problem& p) { p.integration.integrator = {"rk4"}; }},
+      {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
+      {"stretched", [](Problem& p) {
+         p.body.initial.stretch = {1.02, 1, 0.99};
+       }}};
+  for (const auto& [name, change] : options)
+    for (const char* element : {"linear", "nodal"}) {
+      SCOPED_TRACE(name + ", " + element);
+      Problem problem = organ(lump(), element);
+      change(problem);
+      expect_on_ranks<TypeParam>(on_one_process<TypeParam>(problem), problem, 4);
+    }
+}
+
+// A vertex that two ranks update has the same values on both, after each macro step.
+TYPED_TEST(SeveralRanks, HaveEqualCopies) {
+  using B = TypeParam;
+  const Problem problem = organ(liver(), "linear");
+  Simulation<B> one(problem);
+  std::vector<std::vector<Point>> u, v;
+  for (int n = 0; n < macro_steps; ++n) {
+    one.step();
+    u.push_back(to_host<B>({}, one.displacement())), v.push_back(to_host<B>({}, one.velocity()));
+  }
+  BatonRanks(5).run([&](Ranks& ranks) {
+    Simulation<B> simulation(problem, typename B::Exec(), ranks);
+    const std::vector<int> local =
+        part_of_level(problem.body.levels[0], Element::linear, ranks).part.vertex;
+    ASSERT_EQ(local.size(), simulation.displacement().extent(0));
+    EXPECT_GT(local.size(), simulation.numbers().size());
+    for (std::size_t n = 0; n < macro_steps; ++n) {
+      simulation.step();
+      const auto own_u = to_host<B>({}, simulation.displacement()),
+                 own_v = to_host<B>({}, simulation.velocity());
+      for (std::size_t i = 0; i < local.size(); ++i) {
+        const auto a = static_cast<std::size_t>(local[i]);
+        ASSERT_EQ(own_u[i], u[n][a]) << "vertex " << a << ", macro step " << n + 1;
+        ASSERT_EQ(own_v[i], v[n][a]) << "vertex " << a << ", macro step " << n + 1;
+      }
+    }
+  });
+}
+
+TYPED_TEST(SeveralRanks, StopAlike) {
+  using B = TypeParam;
+  for (const bool invert : {true, false}) {
+    Problem problem = organ(lump(), "linear");
+    problem.contact = {}, problem.body.surface.reset();
+    problem.body.material.allow_inversion = invert;
+    problem.integration.macro_step = 1.7 * Simulation<B>(problem).levels()[0].critical_step;
+    problem.integration.substeps = {1};
+    problem.integration.allow_unstable = true;
+    const auto end = [](Simulation<B>& simulation) {
+      for (int n = 0; n < 500; ++n)
+        if (const auto bad = simulation.step_checked()) return bad->text();
+      return std::string("it goes on");
+    };
+    Simulation<B> alone(problem);
+    const std::string expected = end(alone);
+    EXPECT_NE(expected, "it goes on");
+    BatonRanks(3).run([&](Ranks& ranks) {
+      Simulation<B> simulation(problem, typename B::Exec(), ranks);
+      EXPECT_EQ(end(simulation), expected) << "rank " << ranks.own();
+      EXPECT_EQ(simulation.macro_steps(), alone.macro_steps());
+    });
+  }
+}
+
+// Rank 0 calls, the others follow; it has the whole body.
+TYPED_TEST(SeveralRanks, FollowOne) {
+  using B = TypeParam;
+  for (const char* element : {"linear", "nodal"}) {
+    const Problem problem = organ(lump(), element);
+    Simulation<B> one(problem);
+    take_steps(one);
+    const ElementFields expected = one.element_fields(0, true);
+    BatonRanks(3).run([&](Ranks& ranks) {
+      Simulation<B> simulation(problem, typename B::Exec(), ranks);
+      if (ranks.own() > 0) {
+        EXPECT_EQ(simulation.follow(), 3);
+        return;
+      }
+      simulation.lead();
+      take_steps(simulation);
+      EXPECT_TRUE(equal_bits(simulation.positions(), one.positions()));
+      EXPECT_TRUE(equal_bits(simulation.velocities(), one.velocities()));
+      EXPECT_TRUE(equal_bits(simulation.surface_positions(), one.surface_positions()));
+      EXPECT_TRUE(equal_bits(simulation.surface_velocities(), one.surface_velocities()));
+      EXPECT_TRUE(equal_bits(simulation.contact_pressure(), one.contact_pressure()));
+      const ElementFields fields = simulation.element_fields(0, true);
+      EXPECT_TRUE(equal_bits(fields.von_mises, expected.von_mises));
+      EXPECT_TRUE(equal_bits(fields.J, expected.J));
+      EXPECT_TRUE(equal_bits(fields.stress, expected.stress));
+      EXPECT_TRUE(equal_bits(fields.principal_stretches, expected.principal_stretches));
+      const RankReport report = simulation.ranks().value();
+      EXPECT_EQ(report.count, 3);
+      EXPECT_GT(report.messages, 0);
+      EXPECT_GT(report.bytes, report.messages);
+      EXPECT_GE(report.imbalance, 1);
+      simulation.dismiss(3);
+    });
+  }
+}
+
+TEST(SeveralRanksRefusals, NameTheOptionAndTheAlternative) {
+  const auto refused = [](const std::function<void(Problem&)>& change) {
+    Problem problem = organ(lump(), "linear");
+    change(problem);
+    std::string said;
+    BatonRanks(2).run([&](Ranks& ranks) {
+      said = refusal([&] { Simulation<Host>(problem, Host::Exec(), ranks); });
+    });
+    return said;
+  };
+  EXPECT_EQ(refused([](Problem& p) { p.integration.integrator = {"implicit_euler"}; }),
+            "integration.integrator is implicit_euler, which runs on one process alone; expected "
+            "symplectic_euler, or one process");
+  EXPECT_EQ(refused([](Problem& p) { p.integration.cycle = "him"; }),
+            "integration.cycle is him, which runs on one process alone; expected single, or one "
+            "process");
+  EXPECT_EQ(refused([](Problem& p) { p.contact.obstacles.front().grasp.emplace(); }),
+            "contact.obstacles.0.grasp holds points, which runs on one process alone; expected "
+            "none, or one process");
+  EXPECT_NE(refused([](Problem& p) { p.contact.whole_surface = "auto"; }).find("expected never"),
+            std::string::npos);
+}
+
+}  // namespace
