@@ -124,12 +124,13 @@ struct ContactEnergy {
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
     const int r = at.records.list.item(i);
     const auto& law = at.records.law_at(r);
-    const auto s = vector_at<B>(at.records.stretch, r);
+    const auto s = vector_at<B>(at.records.stretch, r), force = vector_at<B>(at.records.force, r);
     if (law.is_tie()) {
       const auto now = s + at.way(r);
-      return {{0.5 * static_cast<double>(law.stiffness * dot(now, now))}};
+      const double spring = static_cast<double>(law.stiffness * dot(now, now)),
+                   pull = -static_cast<double>(dot(force, now));
+      return {{0.5 * (by_force ? Kokkos::min(spring, Kokkos::max(0.0, pull)) : spring)}};
     }
-    const auto force = vector_at<B>(at.records.force, r);
     const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r))),
                  lam = static_cast<double>(dot(force, vector_at<B>(at.records.normal, r)));
     const double spring = static_cast<double>(law.stiffness) * depth,
