@@ -28,8 +28,11 @@ void describe(V& v, GraspOptions& o) {
   v("from", o.from, times, "when it closes; left out: when a program says so");
   v("until", o.until, times, "when it opens, as often as it closes; left out: it stays closed");
   v("reach", o.reach, Quantity{length, not_negative},
-    "how far outside it a point may be that it takes hold of");
-  v("where", o.where, Group{}, "which points, by where they start; left out: all");
+    "how far outside it a point may be that it takes hold of; left out: 0, and with where any");
+  v("where", o.where, Group{},
+    "which points, by where they start; left out: all. Without reach it holds all of them, "
+    "wherever "
+    "it is");
   v("stiffness", o.stiffness, AutoQuantity{{{.mass = 1, .time = -2}, positive}},
     "of the spring of each point that it holds; auto: that of contact");
   v("strength", o.strength, Quantity{force, positive},

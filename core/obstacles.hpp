@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <any>
+#include <limits>
 #include <optional>
 #include <plica/core/motion.hpp>
 #include <plica/core/selection.hpp>
@@ -30,15 +31,22 @@ struct GraspOptions {
   /// Times at which it opens, each after the same entry of `from` [s]. The last may be left out: it
   /// then stays closed
   std::vector<double> until = {};
-  /// Largest distance outside the obstacle at which a point is grasped [m]
-  double reach = 0;
+  /// Largest distance outside the obstacle at which a point is grasped [m]; none: 0, and with
+  /// `where` any distance
+  std::optional<double> reach = {};
   /// Stiffness of the spring of each point [N/m]; none: that of contact
   std::optional<double> stiffness = {};
   /// Force at which the spring of a point tears [N]; none: it never does
   std::optional<double> strength = {};
-  /// Points near it that may be grasped, by where they start; none: all
+  /// Points that may be grasped, by where they start; none: all
   std::optional<Selection> where = {};
 };
+
+/// Returns the largest distance outside an obstacle at which it grasps a point [m]; may be
+/// infinite.
+inline double grasp_reach(const GraspOptions& grasp) {
+  return grasp.reach.value_or(grasp.where ? std::numeric_limits<double>::infinity() : 0.0);
+}
 
 /// A rigid obstacle: its shape, friction and motion.
 struct ObstacleOptions {

@@ -389,7 +389,7 @@ template <class B>
 void Contact<B>::grasp(const Exec& exec, const LevelData<B>& level, double time, int obstacle,
                        const ContactRecords<B>& records) const {
   // a point that touches is held, on whichever side rounding puts it
-  const double reach = grasp_options(obstacle)->reach + same_place(deepest_);
+  const double reach = grasp_reach(*grasp_options(obstacle)) + same_place(deepest_);
   obstacles_[static_cast<std::size_t>(obstacle)]->grasp(exec, level.surface, level.state, time,
                                                         obstacle, reach, records);
 }

@@ -180,9 +180,19 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const LevelData<B>& level
 
 template <class B>
 double ContactResponse<B>::energy(const Exec& exec, const LevelData<B>& level, double time) const {
+  return energy(exec, level, time, !fresh_);
+}
+template <class B>
+double ContactResponse<B>::energy_by_depth(const Exec& exec, const LevelData<B>& level,
+                                           double time) const {
+  return energy(exec, level, time, false);
+}
+template <class B>
+double ContactResponse<B>::energy(const Exec& exec, const LevelData<B>& level, double time,
+                                  bool by_force) const {
   const RecordLater<B> at = later(exec, level, time);
-  sum_records<B, 1>(exec, records_, "plica::contact_energy", ContactEnergy<B>{at}, sums_of_records_,
-                    sums_);
+  sum_records<B, 1>(exec, records_, "plica::contact_energy", ContactEnergy<B>{at, by_force},
+                    sums_of_records_, sums_);
   return host_values(exec, sums_)[0];
 }
 
@@ -193,7 +203,7 @@ double ContactResponse<B>::energy_found(const Exec& exec, const LevelData<B>& le
   Archive keep(Archive::Task::keep, aside_, exec), put_back(Archive::Task::put_back, aside_, exec);
   name_kept(keep, exec, level);
   find(exec, level, state, time);
-  const double found = energy(exec, level, time);
+  const double found = energy_by_depth(exec, level, time);
   name_kept(put_back, exec, level);
   return found;
 }
@@ -275,7 +285,7 @@ ImplicitContact<B> ContactResponse<B>::at(const LevelData<B>& level, const State
 template <class B>
 ContactBalance ContactResponse<B>::read_balance(const Exec& exec) const {
   const auto sums = host_values(exec, sums_);
-  return {stage_.factor / stage_.scale * sums[0], stage_.factor * sums[1], stage_.factor * sums[2]};
+  return {stage_.factor / stage_.scale * sums[0], stage_.factor * sums[1]};
 }
 
 template <class B>
@@ -283,7 +293,7 @@ ContactBalance ContactResponse<B>::linearise(const Exec& exec, const LevelData<B
                                              const State<B>& state, const ImplicitWeights& w,
                                              double ahead, const Vectors<B>& f, bool secant) {
   const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
-  sum_list<B, 3>(exec, records_.list, "plica::contact_linearise",
+  sum_list<B, 2>(exec, records_.list, "plica::contact_linearise",
                  LineariseContact<B>{at(level, state, ahead), weight, true, secant}, blocks_,
                  sums_);
   scatter(exec, level, f, stage_.factor);
@@ -293,7 +303,7 @@ ContactBalance ContactResponse<B>::linearise(const Exec& exec, const LevelData<B
 template <class B>
 ContactBalance ContactResponse<B>::balance(const Exec& exec, const LevelData<B>& level,
                                            const State<B>& state) {
-  sum_list<B, 3>(exec, records_.list, "plica::contact_balance",
+  sum_list<B, 2>(exec, records_.list, "plica::contact_balance",
                  LineariseContact<B>{at(level, state, 0), 0, false}, blocks_, sums_);
   return read_balance(exec);
 }

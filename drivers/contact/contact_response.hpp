@@ -33,9 +33,8 @@ struct ContactStage {
 
 /// Sums over contact's forces at a state of an implicit stage.
 struct ContactBalance {
-  double energy = 0;   ///< incremental potential, times the stage's factor [J]
-  double lacking = 0;  ///< sum of |mu lam - cap|, lam the normal force [N]
-  double forces = 0;   ///< sum of the forces' sizes [N]
+  double energy = 0;  ///< incremental potential, times the stage's factor [J]
+  double forces = 0;  ///< sum of the forces' sizes [N]
 };
 
 /// Contact of one level, implicit in each step: forces on surface points, impulses of obstacles.
@@ -86,7 +85,10 @@ class ContactResponse {
   /// Returns the impulses and angular impulses: [6 obstacles, then 6 bodies] N s and N m s.
   const Doubles<B>& impulse() const { return impulse_; }
   /// Returns the energy stored in all contact of the level's state [J]. Waits.
+  /// It is that of the last forces, and without a last step that of the depths.
   double energy(const Exec& exec, const LevelData<B>& level, double time) const;
+  /// Returns the energy that the law's springs have at the depths of the level's state [J]. Waits.
+  double energy_by_depth(const Exec& exec, const LevelData<B>& level, double time) const;
   /// Returns the work of friction in all steps so far [J]. Waits.
   double friction_work(const Exec& exec) const;
   /// Returns for each obstacle which part of its touching records slips, 0 to 1. Waits.
@@ -171,6 +173,7 @@ class ContactResponse {
   void find(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time);
   void look(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time) const;
   RecordLater<B> later(const Exec& exec, const LevelData<B>& level, double time) const;
+  double energy(const Exec& exec, const LevelData<B>& level, double time, bool by_force) const;
   template <class End>
   void end(const Exec& exec, const char* label, const End& kernel) const;
   void scatter(const Exec& exec, const LevelData<B>& level, const Vectors<B>& f,

@@ -17,9 +17,8 @@
 // Check whether a body has more energy than was put into it.
 namespace plica {
 
-/// Compares energies during a run with those at its start. They include gravity; the work of
-/// obstacles is an argument. The energy of contact counts only at the start: the few sweeps of a
-/// step give less force than the depth stands for.
+/// Compares energies during a run with those at its start. They include gravity and contact; the
+/// work of obstacles is an argument.
 class EnergyBudget {
  public:
   static constexpr double notable = 0.1;  ///< part of the energy put in: discrete ones oscillate
@@ -43,7 +42,7 @@ class EnergyBudget {
   void look(double time, const Energies& e, double work = 0) {
     if (!looked_) start_ = e.total(), looked_ = true;
     put_in_ = std::max(put_in_, start_ + work - e.potential);
-    const double surplus = e.total() - e.contact - start_ - work;
+    const double surplus = e.total() - start_ - work;
     if (surplus > surplus_) surplus_ = surplus, at_ = time;
   }
 

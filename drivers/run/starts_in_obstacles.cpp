@@ -30,7 +30,7 @@ struct Deepest {
 
 /// Returns whether an obstacle grasps the body from the start: such an anchor may be inside it.
 bool holds_at_start(const ObstacleOptions& options, const Deepest& found) {
-  if (!options.grasp || !(found.nearest <= options.grasp->reach)) return false;
+  if (!options.grasp || !(found.nearest <= grasp_reach(*options.grasp))) return false;
   return options.grasp->from.empty() || options.grasp->from.front() <= 0;
 }
 

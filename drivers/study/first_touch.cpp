@@ -114,7 +114,14 @@ FirstTouch touch_of(const ObstacleOptions& o, const Approach& body, double close
   bool exact = false;
   const Distance distance = distance_from(o.shape, exact);
   const Course course(o);
-  const double speed = fastest_of(o, body.places), reach = o.grasp ? o.grasp->reach : 0;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double speed = fastest_of(o, body.places), wanted = o.grasp ? grasp_reach(*o.grasp) : 0;
+  // a grasp at any distance acts when it closes
+  const bool anywhere = wanted == never;
+  const double reach = anywhere ? 0 : wanted, closes = !anywhere ? never
+                                                       : o.grasp->from.empty()
+                                                           ? 0
+                                                           : o.grasp->from.front();
   double t = 0;
   for (int i = 0; i < most_advances; ++i) {
     const ObstaclePose pose = course.at(t);
@@ -127,8 +134,9 @@ FirstTouch touch_of(const ObstacleOptions& o, const Approach& body, double close
       touch.time = t, touch.exact = exact && body.motion && !o.grasp;
       return touch;
     }
-    t += time_to_go(gap, speed + body.fastest(t), body.accelerates(t));
+    t = std::min(t + time_to_go(gap, speed + body.fastest(t), body.accelerates(t)), closes);
     if (!(t < until)) return touch;
+    if (t == closes) break;
   }
   touch.time = t;
   return touch;

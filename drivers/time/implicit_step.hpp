@@ -84,7 +84,7 @@ class ImplicitStep : public Integrator<B> {
   double unforeseen(Level<B>& level, double time) {
     double solved = 0, found = 0;
     level.timed("contact", [&] {
-      solved = level.response().energy(level.exec(), level, time);
+      solved = level.response().energy_by_depth(level.exec(), level, time);
       found = level.response().energy_found(level.exec(), level, level.state, time);
     });
     if (!(found > 2 * solved)) return 0;

@@ -115,23 +115,27 @@ struct RecordLater {
   }
 };
 
-/// Energy stored in a record's spring and in its stretch [J].
+/// Energy stored in a record's spring and in its stretch [J]. Sweeps that have not converged are a
+/// softer spring, whose energy is its force times its depth over 2; damping adds nothing to it.
 template <class B>
 struct ContactEnergy {
   RecordLater<B> at;
+  bool by_force;  ///< false: of the law's spring at this depth, whatever the force
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
     const int r = at.records.list.item(i);
     const auto& law = at.records.law_at(r);
-    const auto s = vector_at<B>(at.records.stretch, r);
+    const auto s = vector_at<B>(at.records.stretch, r), force = vector_at<B>(at.records.force, r);
     if (law.is_tie()) {
       const auto now = s + at.way(r);
-      return {{0.5 * static_cast<double>(law.stiffness * dot(now, now))}};
+      const double spring = static_cast<double>(law.stiffness * dot(now, now)),
+                   pull = -static_cast<double>(dot(force, now));
+      return {{0.5 * (by_force ? Kokkos::min(spring, Kokkos::max(0.0, pull)) : spring)}};
     }
-    const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r)));
-    // by the actual force: unconverged sweeps are a softer spring
-    const double of_stretch = -static_cast<double>(dot(vector_at<B>(at.records.force, r), s));
-    return {{0.5 * static_cast<double>(law.stiffness) * depth * depth +
-             0.5 * Kokkos::max(0.0, of_stretch)}};
+    const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r))),
+                 lam = static_cast<double>(dot(force, vector_at<B>(at.records.normal, r)));
+    const double spring = static_cast<double>(law.stiffness) * depth,
+                 push = by_force ? Kokkos::min(spring, Kokkos::max(0.0, lam)) : spring;
+    return {{0.5 * push * depth + 0.5 * Kokkos::max(0.0, -static_cast<double>(dot(force, s)))}};
   }
 };
 

@@ -89,7 +89,7 @@ struct ImplicitContact {
 };
 
 /// Computes the force [N] of each record and its block `weight` C [kg]. It sums up the potential
-/// [J], the distance of the caps from mu lam [N], and the forces [N].
+/// [J] and the sizes of the forces [N].
 template <class B>
 struct LineariseContact {
   using Real = typename B::Real;
@@ -99,7 +99,7 @@ struct LineariseContact {
   /// Blocks of slipping records as if they kept their friction in all directions, against overshoot
   bool secant = false;
 
-  KOKKOS_INLINE_FUNCTION Sums<3> operator()(int i) const {
+  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     const ContactRecords<B>& records = contact.records;
     const int r = records.list.item(i);
     const ContactLaw<Real> of = records.law_at(r);
@@ -113,9 +113,7 @@ struct LineariseContact {
       set_vector<B>(records.force, r, a.force);
       set_block<B>(records.block, r, block(r, law, a, tie));
     }
-    const Real lacking = tie ? Real(0) : Kokkos::abs(of.friction * a.lam - cap);
     return {{static_cast<double>(by_normal) + static_cast<double>(by_shear),
-             static_cast<double>(lacking),
              static_cast<double>(Kokkos::sqrt(dot(a.force, a.force)))}};
   }
 

@@ -40,6 +40,8 @@ inline double mean_edge_of(const TriangleSurface& surface) {
 class ContactDepth {
  public:
   static constexpr double visible = 0.5;  ///< limit, in mean edges, or in radii of a thinner tool
+  /// Limit between bodies, in mean edges: half of the distance within which a partner is found
+  static constexpr double visible_in_bodies = 0.25;
 
   /// @param edge    mean edge length of the finest level [m]
   /// @param surface the embedded surface; its mean edge is reported beside the depths
@@ -100,7 +102,7 @@ class ContactDepth {
                   "contact.stiffness_scale "
                   "above 1");
     const auto which = static_cast<std::size_t>(obstacle_);
-    if (all_.obstacles.empty() || !(depth_ > limit(which))) return {};
+    if (all_.obstacles.empty() || !(depth_ > limit(which))) return warning_of_bodies();
     const bool thin = radius_[which] < edge_;
     return text("contact: at ", number(at_, 4), " s ", all_.obstacles[which], " was ",
                 number(depth_, 3), " m deep in the surface, ",
@@ -112,6 +114,16 @@ class ContactDepth {
   }
 
  private:
+  /// Returns a warning if bodies came too deep into each other or themselves; empty: none did.
+  std::string warning_of_bodies() const {
+    if (!all_.pairs || !(all_.deepest.back().depth > visible_in_bodies * edge_)) return {};
+    return text("contact: at ", number(all_.deepest.back().time, 4), " s a body was ",
+                number(all_.deepest.back().depth, 3), " m deep in a body, ",
+                number(all_.deepest.back().depth / edge_, 3),
+                " of a mean edge, and may come through: a partner is found within half an edge; "
+                "expected contact.stiffness_scale above 1, a smaller integration.macro_step, or "
+                "slower bodies");
+  }
   static double radius_of(const ShapeOptions& shape) {
     double radius = std::numeric_limits<double>::infinity();
     visit_shape(shape, [&](auto kind, const auto& options) {

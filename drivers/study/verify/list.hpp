@@ -68,6 +68,8 @@ VerifyRows stuck_on_a_turntable(const VerifyContext&);
 VerifyRows impact_on_a_plate(const VerifyContext&);
 VerifyRows thrown_cube(const VerifyContext&);
 VerifyRows reactions(const VerifyContext&);
+VerifyRows pressed_ball(const VerifyContext&);
+VerifyRows ridges(const VerifyContext&);
 VerifyRows hertz_contact(const VerifyContext&);
 VerifyRows collision(const VerifyContext&);
 
@@ -147,6 +149,8 @@ inline constexpr VerifyProblem verify_list[] = {
      thrown_cube},
     {"reactions", "forces of obstacles against the change of momentum, in every integrator",
      reactions},
+    {"pressed_ball", "force of a ball at rest by explicit and implicit steps", pressed_ball},
+    {"ridges", "tips and ridges that fall on each other, exactly aligned", ridges},
     {"hertz", "force against approach of a sphere on a plane and on its like, of nodal elements",
      hertz_contact},
     {"collision", "momenta of two equal balls that collide askew", collision}};

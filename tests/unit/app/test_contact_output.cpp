@@ -145,6 +145,17 @@ TEST(ContactDepths, WarnOfWhatIsDeep) {
   EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
 }
 
+// Bodies find each other within half an edge: a quarter of one is deep
+TEST(ContactDepths, WarnOfBodiesInEachOther) {
+  const TriangleSurface surface;
+  ContactDepth fine({}, 2, surface, true), deep = fine;
+  fine.look(1, {}, {}, 0.49), deep.look(1, {}, {}, 0.3), deep.look(2, {}, {}, 0.6);
+  EXPECT_EQ(fine.warning(), "");
+  EXPECT_NE(deep.warning().find("at 2 s a body was 0.6 m deep in a body, 0.3 of a mean edge"),
+            std::string::npos)
+      << deep.warning();
+}
+
 // A run whose last steps are taken again replaces what it has written of them
 TEST(RunFiles, GoOnFromWhereTheyAreCutBack) {
   const TemporaryFolder folder;
