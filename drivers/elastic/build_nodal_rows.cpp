@@ -350,11 +350,12 @@ NodalPart<B> build_nodal_part(const TetMesh& mesh, const NodalConstants& constan
                               const std::vector<char>& given, const RankPart& part) {
   const std::vector<Domain> domains = Domains(mesh, given).all;
   const RowVertices own{part.first_owned, part.last_owned};
-  std::vector<int> others;
-  for (std::size_t d = 0; d < domains.size(); ++d)
+  std::vector<int> others, owner;  // of all domains: the rank
+  for (std::size_t d = 0; d < domains.size(); ++d) {
     if (!own.has(domains[d])) others.push_back(static_cast<int>(d));
-  std::ranges::stable_sort(
-      others, {}, [&](int d) { return part.owner[index_of(domains[index_of(d)].vertex)]; });
+    owner.push_back(part.owner[index_of(domains[d].vertex)]);
+  }
+  std::ranges::stable_sort(others, {}, [&owner](int d) { return owner[index_of(d)]; });
   const SlicedRows<B> sliced(domains, own, others);
   NodalPart<B> made{sliced.on_device(mesh.vertices.size(), !constants.bulk_excess.empty()),
                     halo_of_slots<B>(domains, others, sliced, part)};
