@@ -172,7 +172,7 @@ TEST(FollowingPart, FollowsWhereTheBodyMoves) {
 
 // A rod that turns about its middle, outside the organ: its tip goes round
 TEST(FollowingPart, FollowsAPointOfATool) {
-  Problem p = probed_organ({}, {});
+  Problem p = probed_organ(Point::Zero(), {});
   ObstacleOptions& rod = p.contact.obstacles[0];
   const Point middle(0.03, 0, 0.3), tip(-0.03, 0, 0.08);
   rod.shape = CapsuleOptions{tip, 2 * middle - tip, 0.002};
