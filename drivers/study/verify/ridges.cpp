@@ -66,10 +66,13 @@ Outcome fallen(const Pair& pair, const ContactMethod& method) {
   Simulation<HostBackend> simulation(p);
   const double start = simulation.energies().total(), edge = simulation.levels()[0].mean_edge;
   Outcome found;
-  run_until(simulation, 0.2, [&](const auto& s) {
-    found.surplus = std::max(found.surplus, (s.energies().total() - start) / (weight * fall));
-    found.depth = std::max(found.depth, s.pair_depth() / edge);
-  });
+  while (simulation.time() < 0.2) {
+    if (simulation.step_checked()) break;  // with the remedies of a run
+    found.surplus =
+        std::max(found.surplus, (simulation.energies().total() - start) / (weight * fall));
+    found.depth = std::max(found.depth, simulation.pair_depth() / edge);
+  }
+  require_sound(simulation);
   return found;
 }
 
@@ -84,7 +87,7 @@ VerifyRows ridges(const VerifyContext& context) {
   for (VerifyRow& row : rows) row.mesh = "tips and ridges", row.accepted = 0;
   rows[0].source = "nobody puts energy in", rows[1].source = "they stay outside each other";
   for (VerifyRow& row : rows) row.judged = Judged::size;
-  rows[0].tolerance = 1e-3, rows[1].tolerance = 0.02;
+  rows[0].tolerance = 0.01, rows[1].tolerance = 0.02;
   const std::vector<Pair> pairs = {{"tip on tip", spike(), turned_over(spike(), false), half / 4},
                                    {"tip on ridge", roof(), turned_over(spike(), false), half / 4},
                                    {"ridge on tip", spike(), turned_over(roof(), true), 0},
