@@ -140,8 +140,9 @@ struct DeepestCrossings {
     if (deepest.own < 0) return records.leave(r);
     Real its = deepest.depth;
     if (!fresh)
-      its = grown_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0),
-                        records.span * deepest.velocity, records.is_implicit());
+      its =
+          limited_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0),
+                        records.span * deepest.velocity, deepest.gap.normal, records.is_implicit());
     const Real own = deepest.gap.own, other = deepest.gap.other;
     const int a = edges.end(deepest.own, 0), c = edges.end(deepest.other, 0);
     records.set_stencil(r, a, edges.end(deepest.own, 1), c, edges.end(deepest.other, 1), 1 - own,

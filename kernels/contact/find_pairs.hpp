@@ -157,17 +157,22 @@ struct ListClose {
   }
 };
 
-/// Returns a depth with limited growth: it grows from 0, by little more than a site's way against
-/// its partner in a step. A site may count as inside for other reasons, such as another triangle
-/// that is nearest. The limit prevents that this stores energy that no force has put in.
+/// Returns a depth with limited change: it grows from 0, by little more than a site's approach to
+/// its partner in a step, and falls as the site leaves. A site may count as inside for other
+/// reasons, such as another triangle that is nearest. Without the limit this would store energy
+/// that no force has put in, or push the site out for longer than it came in.
 /// @param last    depth of the record in the last step [m]
 /// @param way     way of the site against its partner in a step [m]
+/// @param N       unit normal out of the partner
 /// @param at_end  true where `last` is of the end of the last step. It has the approach already,
 /// and only the partner's curvature adds to it
 template <class Real>
-KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way, bool at_end) {
-  const Real part = at_end ? Real(0.1) : Real(1.5);
-  return Kokkos::min(depth, Kokkos::max(last, Real(0)) + part * Kokkos::sqrt(dot(way, way)));
+KOKKOS_INLINE_FUNCTION Real limited_depth(Real depth, Real last, const Vec3<Real>& way,
+                                          const Vec3<Real>& N, bool at_end) {
+  constexpr Real bend = Real(0.1);
+  const Real nearer = at_end ? Real(0) : -dot(N, way);
+  return Kokkos::min(depth,
+                     Kokkos::max(last, Real(0)) + nearer + bend * Kokkos::sqrt(dot(way, way)));
 }
 
 /// Finds the nearest triangle for each point's slot, the one with the lowest number where several
@@ -323,12 +328,12 @@ struct NearestTriangles {
     // The far side of a thin part of its own body is no partner.
     if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart)
       return false;
-    Real depth = inside ? distance : -distance;
-    if (!fresh)
-      depth = grown_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0),
-                          records.span * speed(p, t, w), records.is_implicit());
     const bool by_surface = on_face || distance < tiny * limit;
     const Vec3<Real> N = by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d;
+    Real depth = inside ? distance : -distance;
+    if (!fresh)
+      depth = limited_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0),
+                            records.span * speed(p, t, w), N, records.is_implicit());
     join(p, r, t, w);
     records.use(r, records.pair_law(p, find.corner(t, 0)), N, depth, {},
                 records.span * find.spin(t));
