@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,7 @@ class Ranks {
   /// two apart.
   bool tells_failure() const { return tells_failure_; }
   /// Returns the failure that together() tells; empty: this rank has none. An implementation throws
-  /// it where the others do not come to hear it.
+  /// it, as an UnheardFailure, where the others do not come to hear it.
   const std::string& own_failure() const { return own_failure_; }
 
  private:
@@ -103,6 +104,13 @@ class Ranks {
 /// other ranks waiting: the program then has to end them.
 struct ThrownByAll {
   virtual ~ThrownByAll() = default;
+};
+
+/// Failure that together() could not tell, as other ranks wait elsewhere: the program then has to
+/// end them.
+class UnheardFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace plica

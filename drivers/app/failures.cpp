@@ -41,13 +41,19 @@ ExitStatus guarded(const std::function<ExitStatus()>& work, bool speaks) {
 }
 
 ExitStatus with_ranks(const std::function<ExitStatus()>& work, const Ranks* ranks) {
-  if (ranks == nullptr || ranks->own() == 0) return work();
+  if (ranks == nullptr) return work();
+  const auto lost = [&](const std::exception& error) {
+    return LostRank(text("rank ", ranks->own(), ": ", error.what()));
+  };
   try {
     return work();
   } catch (const ThrownByAll&) {
     throw;
+  } catch (const UnheardFailure& error) {
+    throw lost(error);
   } catch (const std::exception& error) {
-    throw LostRank(text("rank ", ranks->own(), ": ", error.what()));
+    if (ranks->own() == 0) throw;
+    throw lost(error);
   }
 }
 

@@ -20,8 +20,8 @@ ExitStatus failed(const std::string& text, ExitStatus status);
 /// @param speaks  true: prints the exception
 ExitStatus guarded(const std::function<ExitStatus()>& work, bool speaks);
 
-/// Returns what `work` returns. Where rank 0 leads, which ends the others in order, another rank
-/// that throws on its own makes a LostRank of it.
+/// Returns what `work` returns. An exception of this rank alone becomes a LostRank; not that of
+/// rank 0, which leads and ends the others in order, unless it was to be told to them.
 /// @param ranks  processes that do this work together; null: this one alone
 ExitStatus with_ranks(const std::function<ExitStatus()>& work, const Ranks* ranks);
 

@@ -225,8 +225,7 @@ void MpiRanks::finish(std::span<MPI_Request> requests, std::span<const int> rank
       traffic_.waited += std::chrono::duration<double>(since).count();
       return;
     }
-    if (!own_failure().empty() && since > waiting_.patience)
-      throw std::runtime_error(own_failure());  // the program then ends all ranks
+    if (!own_failure().empty() && since > waiting_.patience) throw UnheardFailure(own_failure());
     if (!said && since > waiting_.patience && std::uncaught_exceptions() > 0) {
       if (waiting_.say)
         waiting_.say(text("rank ", own_, " failed while others wait for it; all are ended"));
