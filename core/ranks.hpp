@@ -63,7 +63,9 @@ class Ranks {
 
   /// Makes an exchange. What rank a sends to rank b is, in order and length, what b receives from
   /// a; a rank may be named several times, and a rank without messages calls this too.
-  /// @param what names the exchange in messages: "shares of level 0"
+  /// @param what      names the exchange in messages: "shares of level 0"
+  /// @param sent      bytes for other ranks, in this rank's memory until the exchange is destroyed
+  /// @param received  places for the bytes of other ranks
   virtual std::unique_ptr<Exchange> open(std::string what, std::vector<Outgoing> sent,
                                          std::vector<Incoming> received) = 0;
 

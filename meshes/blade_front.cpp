@@ -35,15 +35,12 @@ Blade BladeFront::advance(const std::vector<std::array<int, 4>>& tets,
   if (way.isZero(0)) return {};
   if (way.dot(last_way_) < 0) places_.assign(places_.size(), {});
   last_way_ = way;
+  const std::vector<Point> shift = shifts(tets, positions, from);
   std::vector<Point> start, end;
   std::vector<char> moved;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Place& place = places_[i];
     const Point blade = on(from, i), goal = on(to, i);
-    Point at = blade;
-    if (place.tet >= 0)
-      at = weighted(place.weights, corners_at(positions, tets[index_of(place.tet)]));
-    if ((at - blade).norm() < rounding * way.norm()) at = blade;
+    const Point at = shift[i].norm() < rounding * way.norm() ? blade : Point(blade + shift[i]);
     moved.push_back((goal - at).dot(way) > 0 ? 1 : 0);
     start.push_back(at), end.push_back(moved.back() != 0 ? goal : at);
   }
@@ -54,6 +51,25 @@ Blade BladeFront::advance(const std::vector<std::array<int, 4>>& tets,
     swept.push_back({start[i - 1], end[i], end[i - 1]});
   }
   return swept;
+}
+
+/// Returns how far the body has carried each place from the blade. A place outside goes with the
+/// next one inside: cuts of two steps thus meet up to the body's surface.
+std::vector<Point> BladeFront::shifts(const std::vector<std::array<int, 4>>& tets,
+                                      const std::vector<Point>& positions,
+                                      const Edge& blade) const {
+  std::vector<Point> shift(places_.size(), Point::Zero());
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (places_[i].tet < 0) continue;
+    const auto corners = corners_at(positions, tets[index_of(places_[i].tet)]);
+    shift[i] = weighted(places_[i].weights, corners) - on(blade, i), inside.push_back(i);
+  }
+  for (std::size_t i = 0, next = 0; i < places_.size() && !inside.empty(); ++i) {
+    while (next + 1 < inside.size() && inside[next] + inside[next + 1] < 2 * i) ++next;
+    shift[i] = shift[inside[next]];
+  }
+  return shift;
 }
 
 /// Finds the tetrahedra of the places that have moved: of several that touch, the first.

@@ -12,7 +12,7 @@ namespace plica {
 /// between: nothing is left between the two, and nothing is cut twice.
 ///
 /// The edge is divided by places at equal distances. Each is in a tetrahedron at fixed weights, or
-/// outside the body, where nothing carries it.
+/// outside the body, where it goes with the next place that is inside.
 class BladeFront {
  public:
   /// Both ends of the blade's edge [m].
@@ -54,6 +54,8 @@ class BladeFront {
     const double s = static_cast<double>(i) / static_cast<double>(places_.size() - 1);
     return (1 - s) * edge[0] + s * edge[1];
   }
+  std::vector<Point> shifts(const std::vector<std::array<int, 4>>& tets,
+                            const std::vector<Point>& positions, const Edge& blade) const;
   void locate(const std::vector<std::array<int, 4>>& tets, const std::vector<Point>& positions,
               const std::vector<Point>& ends, const std::vector<char>& moved);
 };

@@ -350,7 +350,7 @@ NodalPart<B> build_nodal_part(const TetMesh& mesh, const NodalConstants& constan
                               const std::vector<char>& given, const RankPart& part) {
   const std::vector<Domain> domains = Domains(mesh, given).all;
   const RowVertices own{part.first_owned, part.last_owned};
-  std::vector<int> others, owner;  // of all domains: the rank
+  std::vector<int> others, owner;  // domains of other ranks; rank of each domain
   for (std::size_t d = 0; d < domains.size(); ++d) {
     if (!own.has(domains[d])) others.push_back(static_cast<int>(d));
     owner.push_back(part.owner[index_of(domains[d].vertex)]);

@@ -21,4 +21,11 @@ class DeadLoads final : public ForceTerm<B> {
   std::vector<Load<B>> loads_;
 };
 
+/// Returns the weight of vertices as a load, which grows as its course says; gravity does not.
+/// @param mass     [vertices] [kg]
+/// @param gravity  [m/s^2]
+template <class B>
+Load<B> weight_load(const std::vector<double>& mass, const Point& gravity,
+                    const LoadCourse& course);
+
 }  // namespace plica

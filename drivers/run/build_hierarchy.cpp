@@ -150,7 +150,9 @@ class HierarchyBuilder {
                                         i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
         if (!ranks_)
           terms_.push_back(make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
-        if (seeks_rest(problem_.integration)) add_growing_weight(constants_[i].mass, terms_[i]);
+        if (seeks_rest(problem_.integration) && !problem_.gravity.isZero(0))
+          terms_[i].push_back(std::make_unique<DeadLoads<B>>(std::vector{weight_load<B>(
+              constants_[i].mass, problem_.gravity, course_to_rest(problem_.integration.rest))}));
       }
       for (Point& p : mesh.vertices) p += shift;
     }
@@ -165,22 +167,6 @@ class HierarchyBuilder {
     if (!locators_[i])
       locators_[i] = std::make_unique<BodyLocator>(built_.meshes[i], problem_.body.parts);
     return *locators_[i];
-  }
-
-  /// Adds the weight of a level as a load that grows, which gravity does not.
-  void add_growing_weight(const std::vector<double>& mass,
-                          std::vector<std::unique_ptr<ForceTerm<B>>>& terms) const {
-    if (problem_.gravity.isZero(0)) return;
-    std::vector<int> vertex(mass.size());
-    std::iota(vertex.begin(), vertex.end(), 0);
-    std::vector<Point> force;
-    for (const double m : mass) force.push_back(m * problem_.gravity);
-    std::vector<Load<B>> weight;
-    weight.push_back({static_cast<int>(force.size()),
-                      to_device<Indices<B>>("weight.vertex", vertex),
-                      to_device<Vectors<B>>("weight.force", rows<typename B::Real>(force)),
-                      course_to_rest(problem_.integration.rest)});
-    terms.push_back(std::make_unique<DeadLoads<B>>(std::move(weight)));
   }
 
   /// Returns the tolerance of rest; 0: the body moves.

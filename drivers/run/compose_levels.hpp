@@ -14,6 +14,7 @@ namespace plica {
 /// it takes to make it anew. Regions are then chosen on the mesh that it is made of, and
 /// RegionOptions::where is left out afterwards.
 ///
+/// @param body     its levels are replaced
 /// @param contact  obstacles that parts may follow
 /// @return doubts, a sentence each, which begins with the level: "body.levels.0: the part ..."
 /// @throw InputError where the last level covers a part, a selection chooses nothing, a part cannot

@@ -354,7 +354,7 @@ void Simulation<B>::Impl::go_on_from(Impl& before) {
   const Exec& exec = hierarchy().exec();
   before.hierarchy().exec().fence("plica::go_on");
   before.accept_state();
-  std::vector<int> former;  // of points that the surface has gained; a part's move gains none
+  std::vector<int> former;  // points of `before` that a cut has split, see take_memory()
   if (problem.body.following)
     carry_over_part(before);
   else

@@ -22,8 +22,8 @@ std::vector<Point> moved(const Point& by) {
   return at;
 }
 
-BladeFront::Edge edge_at(const Point& middle) {
-  return {middle - Point(0, 0.3, 0), middle + Point(0, 0.3, 0)};
+BladeFront::Edge edge_at(const Point& middle, double half = 0.3) {
+  return {middle - Point(0, half, 0), middle + Point(0, half, 0)};
 }
 
 void add(Faces& all, const Faces& more) {
@@ -33,25 +33,34 @@ void add(Faces& all, const Faces& more) {
 }
 
 // The body goes to and fro while the blade goes down. In the body, each step of the blade starts
-// where the last one has ended: the faces are those across this zigzag
-TEST(BladeFront, GoesOnWhereTheBodyHasCarriedIt) {
-  BladeFront front(edge_at({0.5, 0.5, 0.9}), 0.08);
+// where the last one has ended: the faces are those across this zigzag. The blade's ends are in the
+// body, or beyond its sides
+void expect_zigzag(double half) {
+  BladeFront front(edge_at({0.5, 0.5, 0.9}, half), 0.08);
   Faces opened, expected;
   Point blade(0.5, 0.5, 0.9), cut = blade;  // the edge's middle in the room, and in the body
   for (int n = 0; n < 6; ++n) {
     const Point shift(0.11 * (n % 3) - 0.08, 0.02 * n, 0.01 * n), goal = blade - Point(0, 0, 0.1);
     if (n == 0) cut = blade - shift;
     const auto at = moved(shift);
-    add(opened, faces_across(cube().tets, at,
-                             front.advance(cube().tets, at, edge_at(blade), edge_at(goal))));
+    add(opened,
+        faces_across(cube().tets, at,
+                     front.advance(cube().tets, at, edge_at(blade, half), edge_at(goal, half))));
     const Point end = goal - shift;
-    const auto from = edge_at(cut), to = edge_at(end);
+    const auto from = edge_at(cut, half), to = edge_at(end, half);
     add(expected, faces_across(cube().tets, cube().vertices,
                                {{from[0], from[1], to[1]}, {from[0], to[1], to[0]}}));
     blade = goal, cut = end;
   }
   EXPECT_GT(expected.size(), 40u);
   EXPECT_EQ(opened, expected);
+}
+
+TEST(BladeFront, GoesOnWhereTheBodyHasCarriedIt) {
+  for (const double half : {0.3, 0.8}) {
+    SCOPED_TRACE(half);
+    expect_zigzag(half);
+  }
 }
 
 TEST(BladeFront, StaysWhereTheBodyTakesItAlong) {
