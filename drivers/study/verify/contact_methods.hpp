@@ -59,11 +59,12 @@ class BodySums {
   std::vector<double> mass_;
 };
 
-/// Steps the simulation until a time [s]; calls look(simulation) after each step.
+/// Steps the simulation until a time [s], with the remedies of a run: a step that fails is repeated
+/// in shorter ones. Calls look(simulation) after each step.
 template <class Look>
 void run_until(Simulation<HostBackend>& simulation, double time, const Look& look) {
   while (simulation.time() < time - 1e-9) {
-    simulation.step();
+    if (simulation.step_checked()) break;
     look(simulation);
   }
   require_sound(simulation);

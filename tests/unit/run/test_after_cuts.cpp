@@ -166,7 +166,7 @@ TEST(AfterCuts, BladesCutABodyThatMovesOnce) {
 // explicit sub-steps, which keep momentum
 TEST(AfterCuts, HimGoesOnWithShorterSteps) {
   const Blade blade = plane_at(0.11, 0.04);
-  Problem whole = bar({4, 2, 2});
+  Problem whole = bar();
   whole.integration.cycle = "him", whole.integration.macro_step.reset();
   whole.body.initial.velocity = {0.1, 0.2, 0.3}, whole.body.initial.angular_velocity = {3, 2, 5};
   Problem open = whole;

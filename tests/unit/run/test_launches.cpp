@@ -67,11 +67,11 @@ struct Method {
 
 std::vector<Method> methods() {
   return {{"single", "symplectic_euler", "linear", 1, Method::falling, 3},
-          {"single", "symplectic_euler", "linear", 1, Method::touching, 39},
-          {"single", "symplectic_euler", "linear", 1, Method::holding, 39},
+          {"single", "symplectic_euler", "linear", 1, Method::touching, 41},
+          {"single", "symplectic_euler", "linear", 1, Method::holding, 41},
           {"single", "symplectic_euler", "nodal", 1, Method::falling, 5},
           {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
-          {"rsv", "symplectic_euler", "linear", 4, Method::touching, 170},
+          {"rsv", "symplectic_euler", "linear", 4, Method::touching, 178},
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
           {"him", "symplectic_euler", "linear", 3, Method::falling, 28},
           {"him", "symplectic_euler", "linear", 3, Method::hanging, 25},
