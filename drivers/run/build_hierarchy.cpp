@@ -452,6 +452,7 @@ class HierarchyBuilder {
                     [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });
     StepperSetup<B> setup{problem_,       *built_.hierarchy, built_.meshes, constants_,    up_,
                           elasticity_[0], eigenvalues_[0],   contact_,      built_.reports};
+    setup.goes_on = !problem_.body.surface_vertex.empty();
     built_.stepper->plan(setup);
     built_.macro_step = setup.macro_step, built_.him = setup.him;
   }

@@ -192,7 +192,9 @@ TEST(AreasOfPoints, AddUpToTheSurface) {
   EXPECT_NEAR(std::accumulate(area.begin(), area.end(), 0.0), surface_area(surface), 1e-15);
   const TriangleSurface one{{Point(0, 0, 0), Point(3, 0, 0), Point(0, 2, 0), Point(5, 5, 5)},
                             {{{0, 1, 2}}}};
-  EXPECT_EQ(areas_of_points(one), (std::vector<double>{1, 1, 1, 0}));
+  const auto of_one = areas_of_points(one);
+  ASSERT_EQ(of_one.size(), 4u);
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(of_one[p], p < 3 ? 1 : 0) << p;
 }
 
 }  // namespace

@@ -241,15 +241,14 @@ TEST(FollowingPart, KeepsRegions) {
 TEST(FollowingPart, KeepsEnergyAsItGrows) {
   for (const char* element : {"linear", "nodal"}) {
     SCOPED_TRACE(element);
-    Problem p = probed_organ({0.01, 0, 0.1}, SteadyMotion(Point(0, 0, -20)), 0.001);
-    p.body.covers[0].follows->radius = 0.08;
+    Problem p = probed_organ({0.01, 0, 0.1}, SteadyMotion(Point(0, 0, -16)), 0.001);
     p.body.element = {element};
     p.integration.macro_step = 1e-5;
     Simulation<Host> s(p);
     bend(s, 0.02);
     double energy = s.energies().total();
     std::size_t tets = s.mesh().tets.size();
-    for (long n = 0, moves = 0; n < 230; ++n) {
+    for (long n = 0, moves = 0; n < 290; ++n) {
       advance(s, 1);
       const double now = s.energies().total();
       if (s.followed().moves > moves) {
