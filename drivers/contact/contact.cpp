@@ -8,7 +8,6 @@
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/body/selection.hpp>
 #include <plica/drivers/contact/contact.hpp>
-#include <plica/drivers/contact/order_by_halves.hpp>
 #include <plica/drivers/contact/sample_distance.hpp>
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/kernels/contact/find_on_points.hpp>
@@ -51,19 +50,6 @@ double longest_surface_edge(const TriangleSurface& surface) {
   return longest;
 }
 
-/// Returns the middles of all triangles. Bodies are far apart in them, even where they are not at
-/// the start.
-std::vector<Point> middles(const TouchingSurface& of) {
-  std::vector<Point> result;
-  for (const auto& t : of.surface.triangles) {
-    Point sum = Point::Zero();
-    for (const int p : t) sum += of.surface.vertices[static_cast<std::size_t>(p)] / 3;
-    if (!of.body.empty()) sum[0] += 4 * of.size * of.body[static_cast<std::size_t>(t[0])];
-    result.push_back(sum);
-  }
-  return result;
-}
-
 }  // namespace
 
 template <class B>
@@ -91,7 +77,6 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   if (surface.kept) keep_points(surface);
   if (couples()) connect(surface.surface);
   if (!pairs) return;
-  mesh_.order = to_device<Indices<B>>("contact.order", order_by_halves(middles(surface)));
   limits_ = {static_cast<Real>(pair_reach * surface.edge),
              static_cast<Real>(pair_margin * surface.edge), static_cast<Real>(surface.edge),
              options.bodies, options.self};

@@ -1,11 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/contact/order_by_halves.hpp>
 #include <plica/drivers/contact/pair_search.hpp>
 #include <plica/kernels/contact/find_crossings.hpp>
 
 namespace plica {
 
+namespace {
+
+/// Returns the middles of all triangles at rest. Bodies are next to each other in them, so that a
+/// part of the tree is of one body.
 template <class B>
-PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records) {
+std::vector<Point> middles(const ContactRecords<B>& records, const EmbeddedSurface<B>& surface) {
+  const auto corner = on_host(records.mesh.corner), body = on_host(records.body);
+  const auto rest = on_host(surface.rest);
+  std::vector<Point> result(static_cast<std::size_t>(records.mesh.triangles), Point::Zero());
+  Point size = Point::Zero();
+  for (int i = 0; i < 3 * records.mesh.triangles; ++i) {
+    const Point at(static_cast<double>(rest(corner(i), 0)), static_cast<double>(rest(corner(i), 1)),
+                   static_cast<double>(rest(corner(i), 2)));
+    result[static_cast<std::size_t>(i / 3)] += at / 3;
+    size = size.cwiseMax(at.cwiseAbs());
+  }
+  for (int t = 0; records.bodies > 1 && t < records.mesh.triangles; ++t)
+    result[static_cast<std::size_t>(t)][0] += 4 * size.maxCoeff() * body(corner(3 * t));
+  return result;
+}
+
+}  // namespace
+
+template <class B>
+PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records,
+                          const EmbeddedSurface<B>& surface) {
   const auto n = static_cast<std::size_t>(records.points),
              triangles = static_cast<std::size_t>(records.mesh.triangles);
   constexpr auto wide = static_cast<std::size_t>(PairTree<B>::wide);
@@ -14,6 +39,7 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B
   for (std::size_t level = 1; level < last; level *= wide) inner += level;
   own_.limits = limits;
   own_.inner = static_cast<int>(inner), own_.blocks = static_cast<int>(inner + last);
+  own_.order = to_device<Indices<B>>("pairs.order", order_by_halves(middles<B>(records, surface)));
   own_.x = records.places;
   own_.built = to_device<Vectors<B>>(
       "pairs.built", std::vector<std::array<Real, 3>>(

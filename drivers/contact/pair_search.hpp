@@ -13,7 +13,8 @@ class PairSearch {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records);
+  PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records,
+             const EmbeddedSurface<B>& surface);
   /// Fills the slots of pairs at a state. `fresh`: no last step is known.
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
             const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const;

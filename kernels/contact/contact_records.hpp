@@ -114,8 +114,6 @@ struct SurfaceMesh {
   /// [edges * 4] both ends, and the third corners of the triangles left and right of the edge
   Indices<B> edge;
   Indices<B> side;  ///< [triangles * 3] edge from each corner to the next
-  /// [triangles] triangles in the order of a tree, see order_by_halves()
-  Indices<B> order;
 };
 
 /// Limits of the search for pairs.

@@ -45,7 +45,7 @@ struct FindEdges {
     Box3<Real> box(vector_at<B>(find.tree.built, begin));
     box.add(vector_at<B>(find.tree.built, other));
     box.enlarge(find.tree.edge_reach() + find.tree.limits.margin);
-    find.tree.around(box, find.records.mesh.order, [&](int t) {
+    find.tree.around(box, [&](int t) {
       if (find.has(t, begin) || find.has(t, other) || !find.allowed(begin, t)) return;
       for (int c = 0; c < 3; ++c)
         if (const int f = find.records.mesh.side(3 * t + c);

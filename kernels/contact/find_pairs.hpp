@@ -43,7 +43,7 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION void around(int p, const Look& look) const {
     Box3<Real> box(vector_at<B>(tree.built, p));
     box.enlarge(tree.near());
-    tree.around(box, records.mesh.order, look);
+    tree.around(box, look);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const {
     return value_at<B>(surface.embedding, state.v, p);

@@ -62,6 +62,7 @@ struct PairTree {
   PairLimits<Real> limits;
   int inner = 0;     ///< number of blocks whose children are blocks; those of triangles follow
   int blocks = 0;    ///< number of all blocks
+  Indices<B> order;  ///< [triangles] triangles along the tree, see order_by_halves()
   Vectors<B> x;      ///< [points][3] present positions [m]
   Vectors<B> built;  ///< [points][3] positions that the boxes and lists are of [m]
   Doubles<B> mean;   ///< [6] mean of all points: way from built to x [m], velocity [m/s]
@@ -101,8 +102,7 @@ struct PairTree {
   /// Calls look(triangle) once for all triangles whose boxes meet this one; for none where it has
   /// no end.
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& order,
-                                     const Look& look) const {
+  KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Look& look) const {
     constexpr int most = 80;  // blocks that may wait: seven of each level, of which there are 11
     int waiting[most], count = 0;
     if (box.ends()) waiting[count++] = 0;
@@ -223,7 +223,7 @@ struct BoundBlocks {
       const int child = b < tree.inner ? wide * b + 1 + c : wide * (b - tree.inner) + c;
       Box3<Real> box = Box3<Real>::none();
       if (b < tree.inner && child < tree.blocks) box = around_block(child);
-      if (b >= tree.inner && child < mesh.triangles) box = around_triangle(mesh.order(child));
+      if (b >= tree.inner && child < mesh.triangles) box = around_triangle(tree.order(child));
       for (int k = 0; k < 3; ++k)
         at[k * wide + c] = box.low[k], at[(3 + k) * wide + c] = box.high[k];
     }
