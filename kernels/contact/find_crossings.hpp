@@ -32,19 +32,20 @@ struct FindEdges {
            is_finite(edge.right) && may_be_steep(edge);
   }
   /// Calls look(own edge, other edge) for all edges that begin in p, and all with a higher number
-  /// that may cross them. The order is any; some come twice.
+  /// that may cross them. The order is any; some come twice. `within`: distance at which boxes of
+  /// edges count as near [m].
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
+  KOKKOS_INLINE_FUNCTION void search(int p, Real within, const Look& look) const {
     const SurfaceMesh<B>& mesh = find.records.mesh;
     for (int e = mesh.first_edge(p); e < mesh.first_edge(p + 1); ++e)
-      if (find.tree.ridge(e) > 0) search_around(e, look);
+      if (find.tree.ridge(e) > 0) search_around(e, within, look);
   }
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void search_around(int e, const Look& look) const {
+  KOKKOS_INLINE_FUNCTION void search_around(int e, Real within, const Look& look) const {
     const int begin = end(e, 0), other = end(e, 1);
     Box3<Real> box(vector_at<B>(find.tree.built, begin));
     box.add(vector_at<B>(find.tree.built, other));
-    box.enlarge(find.tree.edge_reach() + find.tree.limits.margin);
+    box.enlarge(within);
     find.tree.around(box, [&](int t) {
       if (find.has(t, begin) || find.has(t, other) || !find.allowed(begin, t)) return;
       for (int c = 0; c < 3; ++c)
@@ -55,7 +56,7 @@ struct FindEdges {
   }
   /// Returns true where edges e and f are near each other and may touch; `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
-    const Real far = find.tree.edge_reach() + find.tree.limits.margin;
+    const Real far = find.tree.edges_near();
     Box3<Real> its(x(f, 0)), own(x(e, 0));
     its.add(x(f, 1)), own.add(x(e, 1)), own.enlarge(far);
     if (!own.meets(its)) return false;
@@ -68,7 +69,7 @@ struct FindEdges {
   KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
     const PairTree<B>& tree = find.tree;
     const int count = tree.crossings(p), first = 2 * p * tree.most_crossings;
-    if (count > tree.most_crossings) return search(p, look);
+    if (count > tree.most_crossings) return search(p, tree.near(), look);
     for (int i = first; i < first + 2 * count; i += 2) look(tree.crossing(i), tree.crossing(i + 1));
   }
 };
@@ -91,7 +92,7 @@ struct ListCrossings {
     const PairTree<B>& tree = edges.find.tree;
     const int first = 2 * p * most;
     int count = 0;
-    edges.search(p, [&](int e, int f) {
+    edges.search(p, tree.edges_near(), [&](int e, int f) {
       for (int i = 0; i < count && i < most; ++i)
         if (tree.crossing(first + 2 * i) == e && tree.crossing(first + 2 * i + 1) == f) return;
       if (count < most)

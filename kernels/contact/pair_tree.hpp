@@ -96,6 +96,8 @@ struct PairTree {
   }
   /// Returns how near to a point the triangles are that it lists [m].
   KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + limits.margin; }
+  /// Returns how near to each other edges are that are listed [m].
+  KOKKOS_INLINE_FUNCTION Real edges_near() const { return edge_reach() + limits.margin; }
   KOKKOS_INLINE_FUNCTION Real* bounds_of(int block) const {
     return bounds.data() + static_cast<std::ptrdiff_t>(block) * 6 * wide;
   }
