@@ -57,7 +57,6 @@ void each_array(T& x, const Use& use) {
     PLICA_MEMBERS(8, a, b, c, d, e, f, g, h)
     PLICA_MEMBERS(9, a, b, c, d, e, f, g, h, i)
     PLICA_MEMBERS(11, a, b, c, d, e, f, g, h, i, j, k)
-    PLICA_MEMBERS(16, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p)
     PLICA_MEMBERS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
     PLICA_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
     PLICA_MEMBERS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t)

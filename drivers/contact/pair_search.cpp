@@ -48,6 +48,7 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B
   own_.moved = zeros<Doubles<B>>("plica::pairs.moved", 2);
   own_.ridge = zeros<Indices<B>>("plica::pairs.ridge", records.mesh.edge.extent(0) / 4);
   own_.reach = zeros<Scalars<B>>("plica::pairs.reach", 1);
+  own_.margin = zeros<Scalars<B>>("plica::pairs.margin", 1);
   own_.stale = zeros<Doubles<B>>("plica::pairs.stale", 1);
   own_.bounds = zeros<Scalars<B>>("plica::pairs.bounds", (inner + last) * 6 * wide);
   own_.close = zeros<Indices<B>>("plica::pairs.close", n);

@@ -56,7 +56,7 @@ struct FindEdges {
   }
   /// Returns true where edges e and f are near each other and may touch; `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
-    const Real far = find.tree.edges_near();
+    const Real far = find.tree.edges_near(find.records.span);
     Box3<Real> its(x(f, 0)), own(x(e, 0));
     its.add(x(f, 1)), own.add(x(e, 1)), own.enlarge(far);
     if (!own.meets(its)) return false;
@@ -92,7 +92,7 @@ struct ListCrossings {
     const PairTree<B>& tree = edges.find.tree;
     const int first = 2 * p * most;
     int count = 0;
-    edges.search(p, tree.edges_near(), [&](int e, int f) {
+    edges.search(p, tree.edges_near(edges.find.records.span), [&](int e, int f) {
       for (int i = 0; i < count && i < most; ++i)
         if (tree.crossing(first + 2 * i) == e && tree.crossing(first + 2 * i + 1) == f) return;
       if (count < most)

@@ -68,8 +68,9 @@ struct PairTree {
   Doubles<B> mean;   ///< [6] mean of all points: way from built to x [m], velocity [m/s]
   /// [2] against the mean: largest squared way [m^2], and largest squared speed [m^2/s^2]
   Doubles<B> moved;
-  Scalars<B> reach;  ///< [1] reach that the lists were made for [m]
-  Doubles<B> stale;  ///< [1] above 0: boxes and lists are being made
+  Scalars<B> reach;   ///< [1] reach that the lists were made for [m]
+  Scalars<B> margin;  ///< [1] limits.margin, or 0 where the lists are for one step [m]
+  Doubles<B> stale;   ///< [1] above 0: boxes and lists are being made
   /// [blocks * 6 * wide] boxes of each block's children: their lows along x, along y, along z, then
   /// their highs [m]
   Scalars<B> bounds;
@@ -90,14 +91,13 @@ struct PairTree {
     constexpr Real reaches = 32;  // 16 edges
     return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), reaches * limits.reach);
   }
-  /// Returns how far apart edges are looked for [m]. Edges that are not fast move less in a step.
-  KOKKOS_INLINE_FUNCTION Real edge_reach() const {
-    return reach(0) > limits.reach ? reach(0) : Real(0.5) * reach(0);
-  }
   /// Returns how near to a point the triangles are that it lists [m].
-  KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + limits.margin; }
-  /// Returns how near to each other edges are that are listed [m].
-  KOKKOS_INLINE_FUNCTION Real edges_near() const { return edge_reach() + limits.margin; }
+  KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + margin(0); }
+  /// Returns how near to each other edges are that are listed, for a step of h seconds [m]. Where
+  /// lists last, edges move less than half of the reach in a step.
+  KOKKOS_INLINE_FUNCTION Real edges_near(Real h) const {
+    return margin(0) > 0 ? Real(0.5) * reach(0) + margin(0) : closing(h);
+  }
   KOKKOS_INLINE_FUNCTION Real* bounds_of(int block) const {
     return bounds.data() + static_cast<std::ptrdiff_t>(block) * 6 * wide;
   }
@@ -111,13 +111,15 @@ struct PairTree {
     while (count > 0) {
       const int b = waiting[--count];
       const Real* const at = bounds_of(b);
-      bool meets[wide];
-      for (int c = 0; c < wide; ++c)
-        meets[c] = (at[c] <= box.high[0]) & (at[wide + c] <= box.high[1]) &
-                   (at[2 * wide + c] <= box.high[2]) & (box.low[0] <= at[3 * wide + c]) &
-                   (box.low[1] <= at[4 * wide + c]) & (box.low[2] <= at[5 * wide + c]);
+      unsigned meet = 0;
       for (int c = 0; c < wide; ++c) {
-        if (!meets[c]) continue;
+        const bool meets = (at[c] <= box.high[0]) & (at[wide + c] <= box.high[1]) &
+                           (at[2 * wide + c] <= box.high[2]) & (box.low[0] <= at[3 * wide + c]) &
+                           (box.low[1] <= at[4 * wide + c]) & (box.low[2] <= at[5 * wide + c]);
+        meet |= static_cast<unsigned>(meets) << c;
+      }
+      for (; meet != 0; meet &= meet - 1) {
+        const int c = Kokkos::Experimental::countr_zero_builtin(meet);
         if (b < inner)
           waiting[count++] = wide * b + 1 + c;
         else
@@ -167,6 +169,8 @@ struct MotionAgainstMean {
   }
 };
 
+/// Decides whether lists stay. Where they would not outlast the next step, they are made for this
+/// step alone, without a margin, and hold less.
 template <class B>
 struct JudgeLists {
   using Real = typename B::Real;
@@ -174,12 +178,12 @@ struct JudgeLists {
   Real h;  ///< step [s]
   KOKKOS_INLINE_FUNCTION void operator()() const {
     const double half = 0.5 * static_cast<double>(tree.limits.margin);
-    const Real least = tree.limits.reach, needed = Kokkos::max(least, tree.closing(h));
-    const bool fits = needed <= tree.reach(0) && tree.reach(0) <= Kokkos::max(least, 4 * needed);
-    if (!fits) tree.reach(0) = needed > least ? Real(1.5) * needed : least;
+    const bool last = static_cast<double>(tree.closing(h)) <= 2 * half, lasted = tree.margin(0) > 0;
     // maxima leave out NaN, sums do not
     const bool sound = Kokkos::isfinite(tree.mean(0) + tree.mean(1) + tree.mean(2));
-    tree.stale(0) = fits && sound && tree.moved(0) <= half * half ? 0 : 1;
+    tree.reach(0) = last ? tree.limits.reach : Kokkos::max(tree.limits.reach, tree.closing(h));
+    tree.margin(0) = last ? tree.limits.margin : Real(0);
+    tree.stale(0) = last && lasted && sound && tree.moved(0) <= half * half ? 0 : 1;
   }
 };
 
