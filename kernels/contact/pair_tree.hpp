@@ -16,9 +16,10 @@
 //
 // With the tree each point gets a list of the triangles that may come near; where there are more
 // than the list holds, the point asks the tree itself. Boxes and lists stay while nothing has moved
-// by more than half of `margin`, and while nothing is so fast that in one step it meets triangles
-// further away. Both are taken against the mean of all points, so that a body that flies needs no
-// new lists. The device decides this, and leaves out the work.
+// by more than half of `margin`. Where something is so fast that they would not outlast a step,
+// they are made in every step, as far as things move in it. Both are taken against the mean of all
+// points, so that a body that flies needs no new lists. The device decides this, and leaves out the
+// work.
 namespace plica {
 
 /// Returns whether all components are finite.
