@@ -51,7 +51,8 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
     product_ =
         zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
   records_.long_steps = implicit;
-  if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
+  if (records_.pairs)
+    search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_, level.surface);
 }
 
 /// Finds and lists the records of a state, and stores that they belong to `time`.

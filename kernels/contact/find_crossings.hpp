@@ -8,10 +8,10 @@
 //   edges that begin    --(1)--> list of      --(2)--> where two meet:  --(3)--> the point's pair
 //   in each point                each point,           depth, less the           of edges: it will
 //                                kept as long as       depth of their            be the deepest
-//                                the grid is           ends
+//                                the lists stay           ends
 namespace plica {
 
-/// Geometry of edges, at the positions in a grid's `x`.
+/// Geometry of edges, at the positions in a tree's `x`.
 template <class B>
 struct FindEdges {
   using Real = typename B::Real;
@@ -22,8 +22,7 @@ struct FindEdges {
   KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const {
     return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)};
   }
-  /// Returns true where an edge may cross another. An edge of triangles that the grid lists is no
-  /// longer than a few cells.
+  /// Returns true where an edge may cross another.
   KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
     const Attachments<B>& attached = find.records.attached;
     if (end(e, 2) < 0 || end(e, 3) < 0 || attached.ties(end(e, 0)) || attached.ties(end(e, 1)))
@@ -33,28 +32,31 @@ struct FindEdges {
            is_finite(edge.right) && may_be_steep(edge);
   }
   /// Calls look(own edge, other edge) for all edges that begin in p, and all with a higher number
-  /// that may cross them. The order is any; some come twice.
+  /// that may cross them. The order is any; some come twice. `within`: distance at which boxes of
+  /// edges count as near [m].
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
+  KOKKOS_INLINE_FUNCTION void search(int p, Real within, const Look& look) const {
     const SurfaceMesh<B>& mesh = find.records.mesh;
     for (int e = mesh.first_edge(p); e < mesh.first_edge(p + 1); ++e)
-      if (find.grid.ridge(e) > 0) search_around(e, look);
+      if (find.tree.ridge(e) > 0) search_around(e, within, look);
   }
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void search_around(int e, const Look& look) const {
-    Box3<Real> box(vector_at<B>(find.grid.built, end(e, 0)));
-    box.add(vector_at<B>(find.grid.built, end(e, 1)));
-    find.grid.around(box, find.records.mesh.corner, [&](int t) {
-      if (!find.allowed(end(e, 0), t)) return;
+  KOKKOS_INLINE_FUNCTION void search_around(int e, Real within, const Look& look) const {
+    const int begin = end(e, 0), other = end(e, 1);
+    Box3<Real> box(vector_at<B>(find.tree.built, begin));
+    box.add(vector_at<B>(find.tree.built, other));
+    box.enlarge(within);
+    find.tree.around(box, [&](int t) {
+      if (find.has(t, begin) || find.has(t, other) || !find.allowed(begin, t)) return;
       for (int c = 0; c < 3; ++c)
         if (const int f = find.records.mesh.side(3 * t + c);
-            f > e && find.grid.ridge(f) > 0 && are_near(e, f, t))
+            f > e && find.tree.ridge(f) > 0 && are_near(e, f, t))
           look(e, f);
     });
   }
   /// Returns true where edges e and f are near each other and may touch; `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
-    const Real far = find.grid.edge_reach() + find.grid.limits.margin;
+    const Real far = find.tree.edges_near(find.records.span);
     Box3<Real> its(x(f, 0)), own(x(e, 0));
     its.add(x(f, 1)), own.add(x(e, 1)), own.enlarge(far);
     if (!own.meets(its)) return false;
@@ -65,39 +67,39 @@ struct FindEdges {
   /// search().
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
-    const PairGrid<B>& grid = find.grid;
-    const int count = grid.crossings(p), first = 2 * p * grid.most_crossings;
-    if (count > grid.most_crossings) return search(p, look);
-    for (int i = first; i < first + 2 * count; i += 2) look(grid.crossing(i), grid.crossing(i + 1));
+    const PairTree<B>& tree = find.tree;
+    const int count = tree.crossings(p), first = 2 * p * tree.most_crossings;
+    if (count > tree.most_crossings) return search(p, tree.near(), look);
+    for (int i = first; i < first + 2 * count; i += 2) look(tree.crossing(i), tree.crossing(i + 1));
   }
 };
 
-/// Marks the edges that may cross others while the grid stays.
+/// Marks the edges that may cross others while lists stay.
 template <class B>
 struct MarkRidges {
   FindEdges<B> edges;
   KOKKOS_INLINE_FUNCTION void operator()(int e) const {
-    edges.find.grid.ridge(e) = edges.may_cross(e) ? 1 : 0;
+    edges.find.tree.ridge(e) = edges.may_cross(e) ? 1 : 0;
   }
 };
 
-/// Lists the edges that may come near those of each point while the grid stays.
+/// Lists the edges that may come near those of each point while lists stay.
 template <class B>
 struct ListCrossings {
   FindEdges<B> edges;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    constexpr int most = PairGrid<B>::most_crossings;
-    const PairGrid<B>& grid = edges.find.grid;
+    constexpr int most = PairTree<B>::most_crossings;
+    const PairTree<B>& tree = edges.find.tree;
     const int first = 2 * p * most;
     int count = 0;
-    edges.search(p, [&](int e, int f) {
+    edges.search(p, tree.edges_near(edges.find.records.span), [&](int e, int f) {
       for (int i = 0; i < count && i < most; ++i)
-        if (grid.crossing(first + 2 * i) == e && grid.crossing(first + 2 * i + 1) == f) return;
+        if (tree.crossing(first + 2 * i) == e && tree.crossing(first + 2 * i + 1) == f) return;
       if (count < most)
-        grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
+        tree.crossing(first + 2 * count) = e, tree.crossing(first + 2 * count + 1) = f;
       ++count;
     });
-    grid.crossings(p) = count;
+    tree.crossings(p) = count;
   }
 };
 
@@ -124,16 +126,16 @@ struct DeepestCrossings {
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const ContactRecords<B>& records = edges.find.records;
-    const PairGrid<B>& grid = edges.find.grid;
+    const PairTree<B>& tree = edges.find.tree;
     const int r = records.of_point(records.obstacles + 1, p);
-    if (grid.crossings(p) == 0) return records.leave(r);
+    if (tree.crossings(p) == 0) return records.leave(r);
     Crossing deepest;
     edges.each_near(p, [&](int e, int f) {
       const EdgeGap<Real> gap = gap_of(e, f);
-      if (!gap.meet || gap.depth > grid.limits.reach) return;
+      if (!gap.meet || gap.depth > tree.limits.reach) return;
       const Vec3<Real> velocity = speed(e, f, gap);
       const Real now = depth(e, f, gap), later = now - records.span * dot(gap.normal, velocity);
-      if (gap.depth < -Real(0.5) * grid.limits.reach && later < 0) return;
+      if (gap.depth < -Real(0.5) * tree.limits.reach && later < 0) return;
       const Crossing found{e, f, now, later, velocity, gap};
       if (found.is_before(deepest)) deepest = found;
     });

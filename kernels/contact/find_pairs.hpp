@@ -2,22 +2,22 @@
 #pragma once
 #include <plica/kernels/contact/gap.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
-#include <plica/kernels/contact/pair_grid.hpp>
+#include <plica/kernels/contact/pair_tree.hpp>
 
 // Narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
 namespace plica {
 
-/// Geometry of the surface, at the positions in a grid's `x`.
+/// Geometry of the surface, at the positions in a tree's `x`.
 template <class B>
 struct FindPairs {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   State<B> state;
-  PairGrid<B> grid;
+  PairTree<B> tree;
   ContactRecords<B> records;
 
   KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return records.mesh.corner(3 * t + c); }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(grid.x, p); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(tree.x, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> nearest(const Vec3<Real>& at, int t) const {
     return nearest_on_triangle(at, x(corner(t, 0)), x(corner(t, 1)), x(corner(t, 2)));
   }
@@ -27,11 +27,11 @@ struct FindPairs {
     return at;
   }
   /// Calls look(triangle) for all triangles that p may touch and that may be near. The order is
-  /// any; some come twice.
+  /// any.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
-    if (grid.close(p) <= grid.longest) {
-      for (int i = 0; i < grid.close(p); ++i) look(grid.listed(p * grid.longest + i));
+    if (tree.close(p) <= tree.longest) {
+      for (int i = 0; i < tree.close(p); ++i) look(tree.listed(p * tree.longest + i));
       return;
     }
     around(p, [&](int t) {
@@ -41,7 +41,9 @@ struct FindPairs {
   /// Calls look(triangle) for all triangles that may be near, whether p may touch them or not.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void around(int p, const Look& look) const {
-    grid.around(Box3<Real>(vector_at<B>(grid.built, p)), records.mesh.corner, look);
+    Box3<Real> box(vector_at<B>(tree.built, p));
+    box.enlarge(tree.near());
+    tree.around(box, look);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const {
     return value_at<B>(surface.embedding, state.v, p);
@@ -51,7 +53,7 @@ struct FindPairs {
     return records.body_of(p) == records.body_of(corner(t, 0));
   }
   KOKKOS_INLINE_FUNCTION bool allowed(int p, int t) const {
-    return one_body(p, t) ? grid.limits.self : grid.limits.between;
+    return one_body(p, t) ? tree.limits.self : tree.limits.between;
   }
   /// Returns true where a point may touch a triangle. On one body, at rest, they must be far apart,
   /// or face each other across a gap: not neighbours, nor the sides of something thin.
@@ -64,7 +66,7 @@ struct FindPairs {
                      d = at - (w[0] * a + w[1] * b + w[2] * c);
     const Vec3<Real> n = cross(b - a, c - a);
     const Real square = dot(d, d), out = dot(d, n);
-    return square > grid.limits.apart * grid.limits.apart ||
+    return square > tree.limits.apart * tree.limits.apart ||
            (out > 0 && 4 * out * out > square * dot(n, n));
   }
   /// Returns the normal of a triangle, not normalised.
@@ -136,24 +138,24 @@ struct FindPairs {
   }
 };
 
-/// Lists the triangles that may come near each point while the grid stays.
+/// Lists the triangles that may come near each point while lists stay.
 template <class B>
 struct ListClose {
   using Real = typename B::Real;
   FindPairs<B> find;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    const PairGrid<B>& grid = find.grid;
+    const PairTree<B>& tree = find.tree;
     const Vec3<Real> at = find.x(p);
-    const Real far = grid.near();
+    const Real far = tree.near();
     int count = 0;
     find.around(p, [&](int t) {
-      if (!find.allowed(p, t)) return;
+      if (find.has(t, p) || !find.allowed(p, t)) return;
       const Vec3<Real> d = find.off(at, t, find.nearest(at, t));
       if (dot(d, d) > far * far || !find.may_touch(p, t)) return;
-      if (count < grid.longest) grid.listed(p * grid.longest + count) = t;
+      if (count < tree.longest) tree.listed(p * tree.longest + count) = t;
       ++count;
     });
-    grid.close(p) = count;
+    tree.close(p) = count;
   }
 };
 
@@ -199,7 +201,7 @@ struct NearestTriangles {
       if (!records.is_torn(r)) return stretch(p, r);
       records.attached.tear(p);
     }
-    if (!records.attached.ties(p) && find.grid.close(p) > 0)
+    if (!records.attached.ties(p) && find.tree.close(p) > 0)
       if (const Nearest found = partner(p, r, last); found.triangle >= 0 && record(p, r, found))
         return;
     records.depth(r) = -records.nowhere();
@@ -247,8 +249,8 @@ struct NearestTriangles {
 
   /// Returns the triangle that a point may touch. `last`: the triangle of the last step, or -1.
   KOKKOS_INLINE_FUNCTION Nearest partner(int p, int r, int last) const {
-    const PairGrid<B>& grid = find.grid;
-    const Real ordinary = grid.limits.reach, far = grid.closing(find.records.span);
+    const PairTree<B>& tree = find.tree;
+    const Real ordinary = tree.limits.reach, far = tree.closing(find.records.span);
     const bool fast = far > Real(0.5) * ordinary;
     Nearest nearest;
     nearest.square = fast ? Kokkos::max(far * far, ordinary * ordinary) : ordinary * ordinary;
@@ -266,7 +268,7 @@ struct NearestTriangles {
   /// point before its path leads through anything; else the one that the path leads through first.
   KOKKOS_INLINE_FUNCTION Nearest on_path(int p, int r, const Nearest& nearest) const {
     constexpr Real third = Real(1) / 3, little = Real(0.05);
-    const Real h = find.records.span, ordinary = find.grid.limits.reach;
+    const Real h = find.records.span, ordinary = find.tree.limits.reach;
     const Vec3<Real> at = find.x(p), d = away_from(p, nearest);
     if (nearest.inside) return as_before(p, r, nearest);
     Real when = 2;
@@ -293,7 +295,7 @@ struct NearestTriangles {
     };
     if (!turns(nearest)) return nearest;
     Nearest other;
-    other.square = find.grid.limits.reach * find.grid.limits.reach;
+    other.square = find.tree.limits.reach * find.tree.limits.reach;
     find.each_near(p, [&](int t) {
       if (dot(FindPairs<B>::unit(find.face(t)), N) > other_way) take_nearer(p, t, other);
     });
@@ -323,10 +325,10 @@ struct NearestTriangles {
     const int t = found.triangle;
     const bool inside = found.inside;
     const Vec3<Real>&w = found.weight, d = away_from(p, found);
-    const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
+    const Real distance = Kokkos::sqrt(found.square), limit = find.tree.limits.reach;
     const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
     // The far side of a thin part of its own body is no partner.
-    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart)
+    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.tree.limits.apart)
       return false;
     const bool by_surface = on_face || distance < tiny * limit;
     const Vec3<Real> N = by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d;
