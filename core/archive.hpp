@@ -109,19 +109,19 @@ class Archive {
   }
 
   /// Names a device field that is carried, which may be empty.
-  /// @param rows  what its rows are of, where several ranks share the body
+  /// @param items  what its rows are of, where several ranks share the body
   template <class View>
-  void field(const std::string& what, const View& view, Rows rows = Rows::whole) {
+  void field(const std::string& what, const View& view, RowItems items = RowItems::whole) {
     std::size_t row = sizeof(typename View::value_type);
     for (std::size_t k = 1; k < View::rank(); ++k) row *= view.extent(k);
-    field(what, view, RowsOfField{rows, row, view.use_count() > 0 || view.extent(0) > 0});
+    field(what, view, RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0});
   }
   template <class View>
   void field(const std::string& what, const View& view, const RowsOfField& rows) {
     const std::size_t size = fields::bytes_of(view);
     if (task_ == Task::measure) return owns(view);
     if (task_ == Task::keep || task_ == Task::put_back) return exchange(view.data(), size, rows);
-    const bool shared = shared_ && rows.of != Rows::whole;
+    const bool shared = shared_ && rows.of != RowItems::whole;
     if (task_ == Task::save) {
       std::vector<unsigned char> own(size);
       Kokkos::fence("plica::archive");
@@ -141,8 +141,8 @@ class Archive {
   }
   /// Names a state of the level's vertices.
   void state(const std::string& what, const State<B>& state) {
-    field(what + ".u", state.u, Rows::vertices);
-    field(what + ".v", state.v, Rows::vertices);
+    field(what + ".u", state.u, RowItems::vertices);
+    field(what + ".v", state.v, RowItems::vertices);
   }
 
   /// Names arrays that are not carried: of constants and of work. See each_array().

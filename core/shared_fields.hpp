@@ -7,7 +7,7 @@
 namespace plica {
 
 /// Items that the rows of a field are of, where several ranks may share them.
-enum class Rows {
+enum class RowItems {
   whole,     ///< items that each rank has all of
   vertices,  ///< vertices of level 0
   elements,  ///< a rank's own elements, in whole packs; they follow those of the rank before it
@@ -18,7 +18,7 @@ enum class Rows {
 
 /// Rows of one field.
 struct RowsOfField {
-  Rows of = Rows::whole;
+  RowItems of = RowItems::whole;
   std::size_t bytes = 0;  ///< size of a row
   bool present = true;    ///< false: the field is left out on all ranks
 };

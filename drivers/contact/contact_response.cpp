@@ -374,10 +374,10 @@ template <class B>
 void ContactResponse<B>::name_records(Archive<B>& archive, const std::string& name) const {
   const ContactRecords<B>& r = records_;
   const auto of_slots = [&](const char* what, const auto& field) {
-    archive.field(name + what, field, Rows::contacts);
+    archive.field(name + what, field, RowItems::contacts);
   };
   of_slots("slots in use", r.near);
-  archive.field(name + "surface points", r.point, Rows::points_of_contacts);
+  archive.field(name + "surface points", r.point, RowItems::points_of_contacts);
   of_slots("laws", r.law_of);
   archive.field(name + "partners", r.partner);
   of_slots("weights", r.weight), of_slots("normals", r.normal), of_slots("depths", r.depth);

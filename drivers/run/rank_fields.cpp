@@ -49,11 +49,11 @@ RankFields::RankFields(Ranks& ranks, RankItems own) : ranks_(ranks), own_(std::m
 }
 
 std::size_t RankFields::bytes(const RowsOfField& rows) const {
-  if (!rows.present && rows.of == Rows::vertices) return 0;
+  if (!rows.present && rows.of == RowItems::vertices) return 0;
   switch (rows.of) {
-    case Rows::vertices:
+    case RowItems::vertices:
       return vertices_ * rows.bytes;
-    case Rows::elements:
+    case RowItems::elements:
       return elements_;
     default:
       return index_of(own_.obstacles) * points_ * rows.bytes;
@@ -62,11 +62,11 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
 
 /// Returns the rows that the rank owns, of those that it has.
 RankFields::Field RankFields::owned(const RowsOfField& rows, const Field& local) const {
-  if (rows.of == Rows::elements || local.empty()) return local;
+  if (rows.of == RowItems::elements || local.empty()) return local;
   const auto row = [&](std::size_t i) {
     return local.begin() + static_cast<std::ptrdiff_t>(i * rows.bytes);
   };
-  if (rows.of == Rows::vertices)
+  if (rows.of == RowItems::vertices)
     return {row(index_of(own_.part->first_owned)), row(index_of(own_.part->last_owned))};
   Field of_points;
   for (int o = 0; o < own_.obstacles; ++o)
@@ -79,7 +79,7 @@ RankFields::Field RankFields::owned(const RowsOfField& rows, const Field& local)
 
 RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local) const {
   Field own = owned(rows, local);
-  if (rows.of == Rows::points_of_contacts)
+  if (rows.of == RowItems::points_of_contacts)
     renumber(own, [&](int p) { return own_.points[index_of(p)]; });
   std::vector<Bytes> sent(index_of(ranks_.count()));
   const auto bytes_of_own = std::as_bytes(std::span(own));
@@ -87,7 +87,7 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
   const std::vector<Bytes> received = ranks_.to_all(sent);
   if (ranks_.own() > 0) return {};
   Field all(bytes(rows));
-  const bool by_point = rows.of == Rows::contacts || rows.of == Rows::points_of_contacts;
+  const bool by_point = rows.of == RowItems::contacts || rows.of == RowItems::points_of_contacts;
   std::size_t end = 0;
   for (std::size_t r = 0; r < received.size(); ++r) {
     const auto* from = reinterpret_cast<const unsigned char*>(received[r].data());
@@ -106,19 +106,19 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
 }
 
 RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char* whole) const {
-  if (rows.of == Rows::elements)
+  if (rows.of == RowItems::elements)
     return {whole + elements_before_, whole + elements_before_ + own_.element_bytes};
   Field all;
   const auto add = [&](std::size_t row) {
     all.insert(all.end(), whole + row * rows.bytes, whole + (row + 1) * rows.bytes);
   };
-  if (rows.of == Rows::vertices) {
+  if (rows.of == RowItems::vertices) {
     for (const int v : own_.part->vertex) add(index_of(v));
     return all;
   }
   for (std::size_t o = 0; o < index_of(own_.obstacles); ++o)
     for (const int p : own_.points) add(o * points_ + index_of(p));
-  if (rows.of == Rows::points_of_contacts)
+  if (rows.of == RowItems::points_of_contacts)
     renumber(all, [&](int p) {
       const auto at = std::ranges::lower_bound(own_.points, p);
       return at != own_.points.end() && *at == p ? static_cast<int>(at - own_.points.begin()) : -1;
