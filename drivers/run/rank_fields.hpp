@@ -7,13 +7,13 @@
 
 namespace plica {
 
-/// What a rank has of a body that several ranks share.
+/// Items of a body that one of several ranks has.
 struct RankItems {
-  const RankPart* part = nullptr;      ///< its part of level 0
-  std::vector<int> points = {};        ///< numbers of its surface points, ascending
+  const RankPart* part = nullptr;      ///< part of level 0
+  std::vector<int> points = {};        ///< numbers of the rank's surface points, ascending
   std::vector<int> owned_points = {};  ///< places in `points` of those that it owns
   int obstacles = 0;                   ///< number of obstacles of the body
-  std::size_t element_bytes = 0;       ///< size of its fields of elements
+  std::size_t element_bytes = 0;       ///< size of the rank's field of elements
 };
 
 /// Fields of a body that several ranks share, in the order of the whole mesh:
