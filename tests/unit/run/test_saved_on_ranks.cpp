@@ -90,7 +90,7 @@ TYPED_TEST(SavedOnRanks, HaveTheBytesOfOneProcess) {
 TYPED_TEST(SavedOnRanks, HaveTheBytesOfOneProcessAfterTheBallHasLeft) {
   using B = TypeParam;
   Problem problem = pressed_organ(lump(), "linear");
-  problem.contact.obstacles.front().motion = SteadyMotion(Point(0, 0, 2));
+  problem.contact.obstacles.front().motion = SteadyMotion(Point(1, 0, 2));
   Simulation<B> one(problem);
   take(one, 12);
   EXPECT_EQ(one.energies().contact, 0);
