@@ -5,6 +5,7 @@
 #include <plica/core/each_array.hpp>
 #include <plica/core/error.hpp>
 #include <plica/core/model.hpp>
+#include <plica/core/shared_fields.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -22,7 +23,7 @@ class KeptValues {
   /// Names the copies, in the order in which they were named to it.
   void name_fields(Archive<B>& archive) {
     for (Value& value : values_)
-      value.number.empty() ? archive.field("a kept field", value.field)
+      value.number.empty() ? archive.field("a kept field", value.field, value.rows)
                            : archive.number(value.number.data(), value.number.size());
   }
 
@@ -30,6 +31,7 @@ class KeptValues {
   friend class Archive<B>;
   struct Value {
     Kokkos::View<unsigned char*, typename B::Memory> field;
+    RowsOfField rows;
     std::vector<unsigned char> number;  ///< bytes of a number; empty: a field
   };
   std::vector<Value> values_;
@@ -52,7 +54,10 @@ class Archive {
   };
 
   Archive() : task_(Task::measure) {}
-  Archive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(&bytes) {}
+  /// @param shared  maker of whole fields, on one of several ranks; null: one process. Fields are
+  ///                saved whole, in the bytes of rank 0
+  Archive(Task task, std::vector<unsigned char>& bytes, const SharedFields* shared = nullptr)
+      : task_(task), bytes_(&bytes), shared_(shared) {}
   Archive(Task task, KeptValues<B>& kept, const Exec& exec)
       : task_(task), kept_(&kept), exec_(exec) {}
 
@@ -104,23 +109,40 @@ class Archive {
   }
 
   /// Names a device field that is carried, which may be empty.
+  /// @param items  what its rows are of, where several ranks share the body
   template <class View>
-  void field(const std::string& what, const View& view) {
+  void field(const std::string& what, const View& view, RowItems items = RowItems::whole) {
+    std::size_t row = sizeof(typename View::value_type);
+    for (std::size_t k = 1; k < View::rank(); ++k) row *= view.extent(k);
+    field(what, view, RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0});
+  }
+  template <class View>
+  void field(const std::string& what, const View& view, const RowsOfField& rows) {
     const std::size_t size = fields::bytes_of(view);
     if (task_ == Task::measure) return owns(view);
-    if (task_ == Task::keep || task_ == Task::put_back) return exchange(view.data(), size);
-    same<std::uint64_t>("the size of " + what, size);
+    if (task_ == Task::keep || task_ == Task::put_back) return exchange(view.data(), size, rows);
+    const bool shared = shared_ && rows.of != RowItems::whole;
     if (task_ == Task::save) {
-      bytes_->resize(bytes_->size() + size);
+      std::vector<unsigned char> own(size);
       Kokkos::fence("plica::archive");
-      fields::download(Exec(), bytes_->data() + bytes_->size() - size, view.data(), size);
-    } else if (const unsigned char* from = take(size); task_ == Task::restore && size > 0) {
-      fields::upload<typename View::memory_space>(view.data(), from, size);
+      fields::download(Exec(), own.data(), view.data(), size);
+      if (shared) own = shared_->whole(rows, own);
+      count(own.size());
+      bytes_->insert(bytes_->end(), own.begin(), own.end());
+      return;
     }
+    const std::size_t saved = shared ? shared_->bytes(rows) : size;
+    same<std::uint64_t>("the size of " + what, saved);
+    const unsigned char* from = take(saved);
+    if (task_ != Task::restore || size == 0) return;
+    std::vector<unsigned char> own;
+    if (shared) own = shared_->local(rows, from), from = own.data();
+    fields::upload<typename View::memory_space>(view.data(), from, size);
   }
+  /// Names a state of the level's vertices.
   void state(const std::string& what, const State<B>& state) {
-    field(what + ".u", state.u);
-    field(what + ".v", state.v);
+    field(what + ".u", state.u, RowItems::vertices);
+    field(what + ".v", state.v, RowItems::vertices);
   }
 
   /// Names arrays that are not carried: of constants and of work. See each_array().
@@ -157,8 +179,10 @@ class Archive {
     if (at_ == kept_->values_.size()) kept_->values_.emplace_back();
     return kept_->values_[at_++];
   }
-  void exchange(void* own, std::size_t size) {
-    auto& kept = next().field;
+  void exchange(void* own, std::size_t size, const RowsOfField& rows) {
+    auto& value = next();
+    auto& kept = value.field;
+    value.rows = rows;
     if (kept.extent(0) != size) kept = unset<std::decay_t<decltype(kept)>>("plica::kept", size);
     task_ == Task::keep ? fields::copy_bytes(exec_, kept.data(), own, size)
                         : fields::copy_bytes(exec_, own, kept.data(), size);
@@ -166,6 +190,7 @@ class Archive {
 
   Task task_;
   std::vector<unsigned char>* bytes_ = nullptr;
+  const SharedFields* shared_ = nullptr;
   KeptValues<B>* kept_ = nullptr;
   std::size_t at_ = 0;  ///< place in the bytes or values
   Exec exec_;

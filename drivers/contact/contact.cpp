@@ -324,7 +324,8 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.close = zeros<Indices<B>>("plica::contact.close", 1);
   records.places = zeros<Vectors<B>>("plica::contact.places", static_cast<std::size_t>(points_));
   records.fastest = zeros<Doubles<B>>("plica::contact.fastest", 1);
-  records.point = zeros<typename ContactRecords<B>::Stencil>("plica::contact.point", slots);
+  records.point = unset<typename ContactRecords<B>::Stencil>("plica::contact.point", slots);
+  fill(Exec(), records.point, -1);
   records.weight = zeros<typename ContactRecords<B>::Weights>("plica::contact.weight", slots);
   records.law_of = zeros<Indices<B>>("plica::contact.law_of", slots);
   records.normal = vectors("plica::contact.normal"), records.way = vectors("plica::contact.way");

@@ -374,25 +374,28 @@ void ContactResponse<B>::reset_history(const Exec& exec) {
 template <class B>
 void ContactResponse<B>::name_records(Archive<B>& archive, const std::string& name) const {
   const ContactRecords<B>& r = records_;
-  archive.field(name + "slots in use", r.near), archive.field(name + "surface points", r.point);
-  archive.field(name + "laws", r.law_of), archive.field(name + "partners", r.partner);
-  archive.field(name + "weights", r.weight), archive.field(name + "normals", r.normal);
-  archive.field(name + "depths", r.depth), archive.field(name + "ways", r.way);
-  archive.field(name + "stretches", r.stretch), archive.field(name + "forces", r.force);
+  const auto of_slots = [&](const char* what, const auto& field) {
+    archive.field(name + what, field, RowItems::contacts);
+  };
+  of_slots("slots in use", r.near);
+  archive.field(name + "surface points", r.point, RowItems::points_of_contacts);
+  of_slots("laws", r.law_of);
+  archive.field(name + "partners", r.partner);
+  of_slots("weights", r.weight), of_slots("normals", r.normal), of_slots("depths", r.depth);
+  of_slots("ways", r.way), of_slots("stretches", r.stretch), of_slots("forces", r.force);
 }
 
 template <class B>
-void ContactResponse<B>::name_fields(Archive<B>& archive, const std::string& name) {
+void ContactResponse<B>::name_fields(Archive<B>& archive, const std::string& name, const Exec& exec,
+                                     const LevelData<B>& level) {
   archive.number(found_), archive.number(fresh_), archive.number(records_.span);
   name_records(archive, name + "contact: ");
-  archive.field(name + "contact: the list", records_.list.item);
-  archive.field(name + "contact: its length", records_.list.count);
-  archive.field(name + "contact: how much touches", records_.touching);
   archive.field(name + "contact: carried impulses", carried_impulse_);
   archive.field(name + "contact: friction's work", work_);
   archive.owns(own_, maker_.used, maker_.summed, blocks_.view(), common_.view(),
                sums_of_records_.integers(), product_, free_, answer_, sums_, impulse_);
   if (search_) search_->name_fields(archive);
+  if (archive.restoring()) list_contacts<B>(exec, level.surface, records_, maker_);
 }
 
 template <class B>

@@ -146,7 +146,9 @@ class ContactResponse {
   }
   /// Forgets what a step takes from the last.
   void reset_history(const Exec& exec);
-  void name_fields(Archive<B>& archive, const std::string& name);
+  /// Names what is carried from step to step. Where that is restored, lists the records again.
+  void name_fields(Archive<B>& archive, const std::string& name, const Exec& exec,
+                   const LevelData<B>& level);
   /// Names what a snapshot of the state needs. Where that is put back, lists the records again.
   void name_kept(Archive<B>& archive, const Exec& exec, const LevelData<B>& level);
 

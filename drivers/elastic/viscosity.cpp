@@ -158,7 +158,7 @@ void Viscosity<B>::take_share(const Exec& exec, double t) {
 template <class B>
 void Viscosity<B>::name_fields(Archive<B>& archive, const LevelData<B>& level,
                                const std::string& name) {
-  archive.field(name + "memory of stress", level.stress.memory);
+  archive.field(name + "memory of stress", level.stress.memory, RowItems::elements);
   archive.number(time_);
   archive.owns(level.stress, steps_, constants_, set_region_, whole_, half_, isochoric_);
   if (archive.restoring()) looked_ = none;

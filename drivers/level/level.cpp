@@ -287,7 +287,7 @@ void Level<B>::name_fields(Archive<B>& archive, const std::string& name) {
   archive.state(name + "start", this->start);
   archive.state(name + "previous", this->previous);
   archive.number(evaluations_);
-  if (contact_) response_.name_fields(archive, name);
+  if (contact_) response_.name_fields(archive, name, exec(), *this);
   if (viscosity) viscosity->name_fields(archive, *this, name);
   integrator->name_fields(archive);
 }

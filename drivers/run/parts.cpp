@@ -126,7 +126,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   if (attached > 0) archive.owns(touching->attached_points());
   const std::size_t attachments = archive.measured();
   add("contact", contact, touched, "no obstacle",
-      sum([&](L& l) { l.response().name_fields(archive, {}); }));
+      sum([&](L& l) { l.response().name_fields(archive, {}, l.exec(), l); }));
   add("held points", !holding.empty(), holding, "no obstacle has grasp", held);
   add("attachments", attached > 0,
       touching ? counted(attached, "attachment") + ", " +

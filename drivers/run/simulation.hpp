@@ -305,13 +305,15 @@ class Simulation {
 
   /// Saves everything that is needed to continue from here: states and histories of all levels,
   /// time, energy budget, counters, and how callers have moved obstacles. Waits. Call it after a
-  /// step that passed check(). A caller saves what its own forces remember.
+  /// step that passed check(). A caller saves what its own forces remember. On several ranks the
+  /// bytes are those of one process; rank 0 gets them, and the others none.
   SavedState save() const;
   /// Restores a saved state, and continues as the saved simulation would have. Results have the
   /// same bits, given the same problem, precision and back end. Cuts that the saved simulation has
   /// made since are made again. Throws InputError for a state of
   /// other fields, sizes, precision or macro step, and then changes nothing. The state's numbers
-  /// are not checked.
+  /// are not checked. Several ranks, any number of them, restore what rank 0 has, and all throw
+  /// what it throws.
   void restore(const SavedState& saved);
 
   /// Returns stress and volume ratio of a level's elements, computed on the device. Waits.

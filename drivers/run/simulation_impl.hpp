@@ -12,6 +12,7 @@
 #include <plica/drivers/run/energy_meter.hpp>
 #include <plica/drivers/run/motion_commands.hpp>
 #include <plica/drivers/run/move_obstacles.hpp>
+#include <plica/drivers/run/rank_fields.hpp>
 #include <plica/drivers/run/reactions.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <plica/drivers/run/step_control.hpp>
@@ -54,7 +55,9 @@ enum class Call {
   surface_positions,
   surface_velocities,
   element_fields,
-  ranks
+  ranks,
+  save,
+  restore
 };
 
 /// A call of one of these functions. Where rank 0 leads, it tells the other ranks; what the
@@ -234,6 +237,8 @@ struct Simulation<B>::Impl {
   std::vector<Point> of_vertices(const std::vector<Point>& local) const;
   std::vector<Point> of_points(const std::vector<Point>& local) const;
   int lost_point(const Contact<B>& contact);
+  std::unique_ptr<RankFields> shared_fields();  // null: one process
+  std::vector<unsigned char> bytes_of_first(const std::vector<unsigned char>& bytes) const;
 
   // Cuts
   OpenedBody with_open(const std::vector<Faces>& more) const;

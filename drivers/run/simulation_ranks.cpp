@@ -20,6 +20,7 @@
 #include <plica/drivers/run/registry.hpp>
 #include <plica/drivers/run/simulation_impl.hpp>
 #include <plica/drivers/run/whole.hpp>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -122,6 +123,28 @@ std::vector<Point> Simulation<B>::Impl::of_points(const std::vector<Point>& loca
   std::vector<Point> own;
   for (const int p : built.owned_points) own.push_back(local[static_cast<std::size_t>(p)]);
   return given(own, joined_points);
+}
+
+/// Makes the maker of whole fields for saved states. All ranks call this.
+template <class B>
+std::unique_ptr<RankFields> Simulation<B>::Impl::shared_fields() {
+  if (!ranks) return {};
+  const Level<B>& level = hierarchy()[0];
+  const std::size_t obstacles = level.contact() ? problem.contact.obstacles.size() : 0;
+  return std::make_unique<RankFields>(
+      *ranks, RankItems{&level.ranks->part, built.surface_point, built.owned_points,
+                        static_cast<int>(obstacles), fields::bytes_of(level.stress.memory)});
+}
+
+/// Returns the bytes that rank 0 has.
+template <class B>
+std::vector<unsigned char> Simulation<B>::Impl::bytes_of_first(
+    const std::vector<unsigned char>& bytes) const {
+  if (!ranks) return bytes;
+  const auto own = std::as_bytes(std::span(bytes));
+  const std::vector<Bytes> all = ranks->gather(ranks->own() == 0 ? own : own.first(0));
+  const auto* const first = reinterpret_cast<const unsigned char*>(all.front().data());
+  return {first, first + all.front().size()};
 }
 
 template <class B>
@@ -240,6 +263,15 @@ double Simulation<B>::Impl::follow(Call until) {
         break;
       case Call::ranks:
         s.ranks();
+        break;
+      case Call::save:
+        s.save();
+        break;
+      case Call::restore:
+        try {
+          s.restore({});
+        } catch (const ThrownByAll&) {  // rank 0 throws it too: its caller decides what to do
+        }
         break;
       case Call::go_on:
       case Call::end:

@@ -408,32 +408,41 @@ void name_all(Impl& s, Archive<B>& archive) {
 template <class B>
 SavedState Simulation<B>::save() const {
   using Archive = Archive<B>;
-  impl_->expect_one_process("save");
+  const LedCall led(*impl_, Call::save);
   impl_->hierarchy().exec().fence("plica::save");
   SavedState saved;
-  Archive archive(Archive::Task::save, saved.bytes);
+  const auto shared = impl_->shared_fields();
+  Archive archive(Archive::Task::save, saved.bytes, shared.get());
   name_all<B>(*impl_, archive);
+  if (impl_->ranks && impl_->ranks->own() > 0) saved.bytes.clear();  // rank 0 has whole fields
   return saved;
 }
 
 template <class B>
 void Simulation<B>::restore(const SavedState& saved) {
   using Archive = Archive<B>;
-  impl_->expect_one_process("restore");
+  const LedCall led(*impl_, Call::restore);
   impl_->hierarchy().exec().fence("plica::restore");
-  std::vector<unsigned char> bytes = saved.bytes;
-  Archive meshes(Archive::Task::restore, bytes), check(Archive::Task::check, bytes),
-      all(Archive::Task::restore, bytes);
-  const std::vector<Faces> opened = name_cuts<B>(meshes, {});
-  long moves = 0;
-  const std::optional<std::vector<int>> part = name_part<B>(meshes, {}, moves);
-  std::unique_ptr<Impl> next = impl_->reopened(opened);  // none: its mesh is that of the state
-  if (!next) next = impl_->with_saved_part(part);
-  name_all<B>(next ? *next : *impl_, check);
+  std::vector<unsigned char> bytes = impl_->bytes_of_first(saved.bytes);
+  const auto shared = impl_->shared_fields();
+  std::unique_ptr<Impl> next;  // none: its mesh is that of the state
+  const auto check = [&] {
+    Archive meshes(Archive::Task::restore, bytes), all(Archive::Task::check, bytes, shared.get());
+    const std::vector<Faces> opened = name_cuts<B>(meshes, {});
+    long moves = 0;
+    const std::optional<std::vector<int>> part = name_part<B>(meshes, {}, moves);
+    if (!opened.empty() || part)
+      impl_->expect_one_process("the saved state of a body that was cut");
+    next = impl_->reopened(opened);
+    if (!next) next = impl_->with_saved_part(part);
+    name_all<B>(next ? *next : *impl_, all);
+  };
+  impl_->ranks ? impl_->ranks->together(check) : check();
   if (next) {
     next->go_on_from(*impl_);
     impl_ = std::move(next);
   }
+  Archive all(Archive::Task::restore, bytes, shared.get());
   name_all<B>(*impl_, all);
   impl_->cut_until = impl_->time, impl_->looked_at = -1;
   if (const Contact<B>* contact = impl_->hierarchy()[0].contact())

@@ -71,7 +71,7 @@ class CentralDifferenceStep final : public Integrator<B> {
   void reset_history() override { current_ = false; }
   void name_fields(Archive<B>& archive) override {
     archive.number(current_);
-    archive.field("the central difference's force", f_);
+    archive.field("the central difference's force", f_, RowItems::vertices);
   }
 
  private:

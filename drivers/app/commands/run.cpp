@@ -259,40 +259,6 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   throw InputError(what + " needs one process; expected a run without it");
 }
 
-// Runs a scene on several ranks. All of them read it and set it up; rank 0 then does what a single
-// process does, and the others follow
-ExitStatus run_on_ranks(const RunArguments& arguments) {
-  Ranks& ranks = *arguments.ranks;
-  const bool leads = ranks.own() == 0;
-  std::optional<InterruptWatch> watch;
-  if (leads)
-    watch.emplace();
-  else
-    std::signal(SIGINT, SIG_IGN);  // rank 0 ends the run
-  SetUpProgress progress(arguments.quiet || !leads);
-  progress.phase("reading the scene and its meshes");
-  Scene scene;
-  ranks.together([&] {
-    if (!arguments.resume.empty()) refuse_on_ranks("--resume");
-    if (!arguments.checkpoint.empty()) refuse_on_ranks("--checkpoint");
-    scene = load_scene(arguments.scene, arguments.overrides);
-    if (!scene.output.probes.empty()) refuse_on_ranks("output.probes");
-    if (leads && !arguments.force) refuse_to_replace(folder_of(arguments));
-  });
-  if (leads) warn(scene);
-  const auto action = [&](const Scene&, auto& simulation, const Machine& machine,
-                          double set_up_time) {
-    if (!leads) return static_cast<ExitStatus>(simulation.follow());
-    simulation.lead();
-    const ExitStatus status = simulate(scene, simulation, machine, set_up_time, arguments,
-                                       new_checkpoint(scene, arguments), *watch);
-    simulation.dismiss(static_cast<int>(status));
-    return status;
-  };
-  return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action,
-                         {true, {}, &ranks});
-}
-
 }  // namespace
 
 Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
@@ -331,29 +297,80 @@ Interval checkpoint_interval(const std::string& text) {
   }
 }
 
+namespace {
+
+// Scene of a run, and the checkpoint that it goes on from or will write
+struct ReadRun {
+  Scene scene;
+  Checkpoint checkpoint;
+};
+
+// Reads the scene, or the checkpoint of the run that is resumed. Throws InputError, also where the
+// folder holds another run
+ReadRun read_run(const RunArguments& arguments, bool writes) {
+  const bool resumed = !arguments.resume.empty();
+  const Interval every = interval_of(arguments);
+  ReadRun read;
+  if (resumed) read.checkpoint = read_checkpoint(arguments.resume);
+  read.scene = resumed ? scene_to_resume(arguments, read.checkpoint)
+                       : load_scene(arguments.scene, arguments.overrides);
+  if (!resumed && writes && !arguments.force) refuse_to_replace(folder_of(arguments));
+  if (!resumed) read.checkpoint = new_checkpoint(read.scene, arguments);
+  read.checkpoint.scene = read.scene.source;  // with a new duration
+  if (every != Interval{}) read.checkpoint.every = every;
+  return read;
+}
+
+// Runs a scene on several ranks. All of them read it and set it up; rank 0 then does what a single
+// process does, and the others follow
+ExitStatus run_on_ranks(const RunArguments& arguments) {
+  Ranks& ranks = *arguments.ranks;
+  const bool leads = ranks.own() == 0;
+  std::optional<InterruptWatch> watch;
+  if (leads)
+    watch.emplace();
+  else
+    std::signal(SIGINT, SIG_IGN);  // rank 0 ends the run
+  SetUpProgress progress(arguments.quiet || !leads);
+  progress.phase("reading the scene and its meshes");
+  ReadRun read;
+  ranks.together([&] {
+    read = read_run(arguments, leads);
+    if (!read.scene.output.probes.empty()) refuse_on_ranks("output.probes");
+    if (!leads) read.checkpoint.state = {};  // rank 0 restores it for all
+  });
+  if (leads) warn(read.scene);
+  const auto action = [&](const Scene& scene, auto& simulation, const Machine& machine,
+                          double set_up_time) {
+    if (!leads) return static_cast<ExitStatus>(simulation.follow());
+    simulation.lead();
+    const ExitStatus status =
+        simulate(scene, simulation, machine, set_up_time, arguments, read.checkpoint, *watch);
+    simulation.dismiss(static_cast<int>(status));
+    return status;
+  };
+  return with_simulation(read.scene, read.checkpoint.precision, arguments.kokkos, progress, action,
+                         {true, {}, &ranks});
+}
+
+}  // namespace
+
 ExitStatus run(const RunArguments& arguments) {
   if (arguments.ranks) return run_on_ranks(arguments);
   InterruptWatch watch;
   SetUpProgress progress(arguments.quiet);
-  const bool resumed = !arguments.resume.empty();
-  const Interval every = interval_of(arguments);
-  Checkpoint checkpoint;
-  if (resumed) checkpoint = read_checkpoint(arguments.resume);
   progress.phase("reading the scene and its meshes");
-  const Scene scene = resumed ? scene_to_resume(arguments, checkpoint)
-                              : load_scene(arguments.scene, arguments.overrides);
-  if (!resumed && !arguments.force) refuse_to_replace(folder_of(arguments));
-  warn(scene);
-  if (!resumed) checkpoint = new_checkpoint(scene, arguments);
-  checkpoint.scene = scene.source;  // with a new duration
-  if (every != Interval{}) checkpoint.every = every;
+  ReadRun read = read_run(arguments, true);
+  warn(read.scene);
+  Checkpoint& checkpoint = read.checkpoint;
   const CycleAuto made{true, checkpoint.choice};
-  const auto action = [&](const Scene&, auto& simulation, const Machine& machine,
+  const auto action = [&](const Scene& scene, auto& simulation, const Machine& machine,
                           double set_up_time) {
     checkpoint.choice = machine.choice;
     return simulate(scene, simulation, machine, set_up_time, arguments, checkpoint, watch);
   };
-  return with_simulation(scene, checkpoint.precision, arguments.kokkos, progress, action, made);
+  return with_simulation(read.scene, checkpoint.precision, arguments.kokkos, progress, action,
+                         made);
 }
 
 }  // namespace plica::app

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
-constexpr int version_written = 16;
+constexpr int version_written = 17;
 
 // Returns a path as JSON: a text if it is UTF-8, else a list of the values of its bytes
 Json path_json(const std::string& path) {

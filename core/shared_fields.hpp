@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+// Fields that are saved as one process has them, whatever the number of ranks that share them.
+namespace plica {
+
+/// Items that the rows of a field are of, where several ranks may share them.
+enum class RowItems {
+  whole,     ///< items that each rank has all of
+  vertices,  ///< vertices of level 0
+  elements,  ///< a rank's own elements, in whole packs; they follow those of the rank before it
+  contacts,  ///< slots of contact: of each obstacle one for each surface point
+  /// slots of contact, of which the field has the surface points' numbers; negative: none
+  points_of_contacts
+};
+
+/// Rows of one field.
+struct RowsOfField {
+  RowItems of = RowItems::whole;
+  std::size_t bytes = 0;  ///< size of a row
+  bool present = true;    ///< false: the field is left out on all ranks
+};
+
+/// Maker of whole fields from parts of them, and back. Fields are bytes in the host's memory.
+class SharedFields {
+ public:
+  virtual ~SharedFields() = default;
+  /// Returns the size of the whole field.
+  virtual std::size_t bytes(const RowsOfField& rows) const = 0;
+  /// Returns the whole field on rank 0, and nothing elsewhere. All ranks call this.
+  virtual std::vector<unsigned char> whole(const RowsOfField& rows,
+                                           const std::vector<unsigned char>& local) const = 0;
+  /// Returns this rank's rows of a whole field.
+  virtual std::vector<unsigned char> local(const RowsOfField& rows,
+                                           const unsigned char* whole) const = 0;
+};
+
+}  // namespace plica

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <plica/core/row_ranges.hpp>
+#include <plica/drivers/run/rank_fields.hpp>
+#include <span>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+/// Returns what each rank has, on all of them.
+template <class T>
+std::vector<std::vector<T>> each_ranks(Ranks& ranks, const std::vector<T>& own) {
+  std::vector<std::vector<T>> all;
+  for (const Bytes& one : ranks.gather(std::as_bytes(std::span(own)))) {
+    all.emplace_back(one.size() / sizeof(T));
+    if (!one.empty()) std::memcpy(all.back().data(), one.data(), one.size());
+  }
+  return all;
+}
+
+/// Replaces numbers of points by those that `number` has for them. Negative ones stay.
+template <class Number>
+void renumber(std::vector<unsigned char>& field, const Number& number) {
+  for (std::size_t at = 0; at + sizeof(int) <= field.size(); at += sizeof(int)) {
+    int point = -1;
+    std::memcpy(&point, &field[at], sizeof point);
+    if (point >= 0) point = number(point);
+    std::memcpy(&field[at], &point, sizeof point);
+  }
+}
+
+}  // namespace
+
+RankFields::RankFields(Ranks& ranks, RankItems own) : ranks_(ranks), own_(std::move(own)) {
+  std::vector<int> points;
+  for (const int p : own_.owned_points) points.push_back(own_.points[index_of(p)]);
+  points_of_ = each_ranks(ranks, points);
+  for (const std::vector<int>& one : points_of_) points_ += one.size();
+  const auto sizes = each_ranks(ranks, std::vector{static_cast<std::uint64_t>(own_.part->owned()),
+                                                   static_cast<std::uint64_t>(own_.element_bytes)});
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    if (r == index_of(ranks.own())) elements_before_ = elements_;
+    vertices_ += sizes[r][0], elements_ += sizes[r][1];
+  }
+}
+
+std::size_t RankFields::bytes(const RowsOfField& rows) const {
+  if (!rows.present && rows.of == RowItems::vertices) return 0;
+  switch (rows.of) {
+    case RowItems::vertices:
+      return vertices_ * rows.bytes;
+    case RowItems::elements:
+      return elements_;
+    default:
+      return index_of(own_.obstacles) * points_ * rows.bytes;
+  }
+}
+
+/// Returns the rows that the rank owns, of those that it has.
+RankFields::Field RankFields::owned(const RowsOfField& rows, const Field& local) const {
+  if (rows.of == RowItems::elements || local.empty()) return local;
+  const auto row = [&](std::size_t i) {
+    return local.begin() + static_cast<std::ptrdiff_t>(i * rows.bytes);
+  };
+  if (rows.of == RowItems::vertices)
+    return {row(index_of(own_.part->first_owned)), row(index_of(own_.part->last_owned))};
+  Field of_points;
+  for (int o = 0; o < own_.obstacles; ++o)
+    for (const int p : own_.owned_points) {
+      const std::size_t slot = index_of(o) * own_.points.size() + index_of(p);
+      of_points.insert(of_points.end(), row(slot), row(slot + 1));
+    }
+  return of_points;
+}
+
+RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local) const {
+  Field own = owned(rows, local);
+  if (rows.of == RowItems::points_of_contacts)
+    renumber(own, [&](int p) { return own_.points[index_of(p)]; });
+  std::vector<Bytes> sent(index_of(ranks_.count()));
+  const auto bytes_of_own = std::as_bytes(std::span(own));
+  sent.front().assign(bytes_of_own.begin(), bytes_of_own.end());
+  const std::vector<Bytes> received = ranks_.to_all(sent);
+  if (ranks_.own() > 0) return {};
+  Field all(bytes(rows));
+  const bool by_point = rows.of == RowItems::contacts || rows.of == RowItems::points_of_contacts;
+  std::size_t end = 0;
+  for (std::size_t r = 0; r < received.size(); ++r) {
+    const auto* from = reinterpret_cast<const unsigned char*>(received[r].data());
+    if (!by_point) {
+      std::copy_n(from, received[r].size(), all.begin() + static_cast<std::ptrdiff_t>(end));
+      end += received[r].size();
+      continue;
+    }
+    for (std::size_t o = 0; o < index_of(own_.obstacles); ++o)
+      for (const int p : points_of_[r]) {
+        std::memcpy(&all[(o * points_ + index_of(p)) * rows.bytes], from, rows.bytes);
+        from += rows.bytes;
+      }
+  }
+  return all;
+}
+
+RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char* whole) const {
+  if (rows.of == RowItems::elements)
+    return {whole + elements_before_, whole + elements_before_ + own_.element_bytes};
+  Field all;
+  const auto add = [&](std::size_t row) {
+    all.insert(all.end(), whole + row * rows.bytes, whole + (row + 1) * rows.bytes);
+  };
+  if (rows.of == RowItems::vertices) {
+    for (const int v : own_.part->vertex) add(index_of(v));
+    return all;
+  }
+  for (std::size_t o = 0; o < index_of(own_.obstacles); ++o)
+    for (const int p : own_.points) add(o * points_ + index_of(p));
+  if (rows.of == RowItems::points_of_contacts)
+    renumber(all, [&](int p) {
+      const auto at = std::ranges::lower_bound(own_.points, p);
+      return at != own_.points.end() && *at == p ? static_cast<int>(at - own_.points.begin()) : -1;
+    });
+  return all;
+}
+
+}  // namespace plica

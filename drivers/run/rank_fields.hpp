@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/rank_part.hpp>
+#include <plica/core/ranks.hpp>
+#include <plica/core/shared_fields.hpp>
+#include <vector>
+
+namespace plica {
+
+/// Items of a body that one of several ranks has.
+struct RankItems {
+  const RankPart* part = nullptr;      ///< part of level 0
+  std::vector<int> points = {};        ///< numbers of the rank's surface points, ascending
+  std::vector<int> owned_points = {};  ///< places in `points` of those that it owns
+  int obstacles = 0;                   ///< number of obstacles of the body
+  std::size_t element_bytes = 0;       ///< size of the rank's field of elements
+};
+
+/// Fields of a body that several ranks share, in the order of the whole mesh:
+///
+///   vertices   | owned by rank 0 | by rank 1 | ...       a rank has these and copies of others
+///   elements   | packs of rank 0 | of rank 1 | ...       a rank has just these
+///   contacts   obstacle 0: points 0, 1, ... | obstacle 1: ...   a rank has some points of each
+class RankFields final : public SharedFields {
+ public:
+  /// Finds out what each rank has. All ranks call this.
+  RankFields(Ranks& ranks, RankItems own);
+
+  std::size_t bytes(const RowsOfField& rows) const override;
+  std::vector<unsigned char> whole(const RowsOfField& rows,
+                                   const std::vector<unsigned char>& local) const override;
+  std::vector<unsigned char> local(const RowsOfField& rows,
+                                   const unsigned char* whole) const override;
+
+ private:
+  using Field = std::vector<unsigned char>;
+  Ranks& ranks_;
+  RankItems own_;
+  std::size_t vertices_ = 0;                 ///< number of vertices of the whole mesh
+  std::size_t elements_before_ = 0;          ///< size of the elements of the ranks before [bytes]
+  std::size_t elements_ = 0;                 ///< size of the elements of all ranks [bytes]
+  std::size_t points_ = 0;                   ///< number of points of the whole surface
+  std::vector<std::vector<int>> points_of_;  ///< points that each rank owns
+
+  Field owned(const RowsOfField& rows, const Field& local) const;
+};
+
+}  // namespace plica
