@@ -41,13 +41,8 @@ inline Problem pressed_organ(const TetMesh& mesh, const std::string& element) {
   for (const Point& x : mesh.vertices)
     if (std::abs(x[0] - (box.min + box.max)[0] / 2) < 0.2 * size[0] && x[2] > top[2]) top = x;
   const double radius = 0.3 * size[2];
-<<<<<<< HEAD
-  ObstacleOptions ball{SphereOptions{top + Point(0, 0, radius - 0.005 * size[2]), radius}, 0.4,
-                       SteadyMotion(Point(0.1, 0, -1))};
-=======
   ObstacleOptions ball{SphereOptions{top + Point(0, 0, radius - 0.005 * size[2]), radius}, 0.1,
                        SteadyMotion(Point(0.8, 0, -1))};
->>>>>>> ranks2
   p.contact.obstacles = {ball};
   p.contact.whole_surface = "never";
   p.body.surface = boundary_surface(mesh).surface;
