@@ -239,10 +239,6 @@ struct ContactRecords {
   KOKKOS_INLINE_FUNCTION bool is_pair(int r) const { return row(r) >= obstacles; }
   /// Returns true where a record couples the vertices of one tetrahedron alone.
   KOKKOS_INLINE_FUNCTION bool is_of_one(int r) const { return r < obstacles * points; }
-  /// Returns true where a record counts in the sums of this rank.
-  KOKKOS_INLINE_FUNCTION bool counts(int r) const {
-    return counted.extent(0) == 0 || counted(point(r, 0)) > 0;
-  }
   KOKKOS_INLINE_FUNCTION int body_of(int p) const { return bodies > 1 ? body(p) : 0; }
   KOKKOS_INLINE_FUNCTION int obstacle_law(int obstacle, int p) const {
     return obstacle * bodies + body_of(p);

@@ -76,16 +76,19 @@ class ListSums {
 /// counts where this rank owns its point.
 template <class B, int N, class Term>
 struct SumOfPart {
-  ContactRecords<B> records;
+  DeviceList<B> list;
+  Indices<B> counted;                         ///< see ContactRecords
+  typename ContactRecords<B>::Stencil point;  ///< likewise
   Term term;
   int parts;
   typename ListSums<B>::View integers;
   KOKKOS_INLINE_FUNCTION void operator()(int part) const {
-    const long long n = static_cast<long long>(records.list.count(0));
+    const long long n = static_cast<long long>(list.count(0));
     ExactSum total[N];
     for (long long i = n * part / parts; i < n * (part + 1) / parts; ++i) {
       const auto one = term(static_cast<int>(i));
-      if (!records.counts(records.list.item(static_cast<int>(i)))) continue;
+      const int r = list.item(static_cast<int>(i));
+      if (counted.extent(0) > 0 && counted(point(r, 0)) == 0) continue;
       for (int k = 0; k < N; ++k) total[k].add(one[k]);
     }
     for (int k = 0; k < N; ++k) total[k].store(&integers((part * N + k) * ExactSum::words));
@@ -120,7 +123,8 @@ void sum_records_later(const typename B::Exec& exec, const ContactRecords<B>& re
   static_assert(N <= ListSums<B>::widest);
   const auto& integers = memory.integers();
   update_vertices<B>(exec, label, memory.parts(),
-                     SumOfPart<B, N, Term>{records, term, memory.parts(), integers});
+                     SumOfPart<B, N, Term>{records.list, records.counted, records.point, term,
+                                           memory.parts(), integers});
   const auto total = [=](const typename B::Exec& on, int parts) {
     update_vertices<B>(on, label, 1, TotalOfParts<B, N, Then>{parts, integers, result, then});
   };
