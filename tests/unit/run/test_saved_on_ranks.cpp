@@ -78,7 +78,9 @@ TYPED_TEST(SavedOnRanks, HaveTheBytesOfOneProcess) {
       Simulation<B> one(problem);
       take(one, 4);
       EXPECT_EQ(one.energies().contact > 0, !problem.contact.obstacles.empty());
-      if (problem.contact.obstacles.size() == 1) EXPECT_LT(one.friction_work(), 0) << "no slip";
+      if (problem.contact.obstacles.size() == 1) {
+        EXPECT_LT(one.friction_work(), 0) << "no slip";
+      }
       const std::vector<unsigned char> bytes = one.save().bytes;
       // with 7 ranks some have no vertex, and most no contact
       for (const int count : {1, 2, 3, 7})
