@@ -107,7 +107,10 @@ def number(value, digits=2):
 
 
 def percent(share):
-    return "" if share is None else f"{number(100 * share)} %"
+    """Such as 2.5 %. What is smaller than rounding in a run is 0."""
+    if share is None:
+        return ""
+    return f"{number(100 * share) if share > 1e-9 else 0} %"
 
 
 def seconds(time):
