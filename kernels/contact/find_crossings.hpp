@@ -8,7 +8,7 @@
 //   edges that begin    --(1)--> list of      --(2)--> where two meet:  --(3)--> the point's pair
 //   in each point                each point,           depth, less the           of edges: it will
 //                                kept as long as       depth of their            be the deepest
-//                                the lists stay           ends
+//                                the lists stay        ends
 namespace plica {
 
 /// Geometry of edges, at the positions in a tree's `x`.

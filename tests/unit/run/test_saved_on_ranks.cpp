@@ -39,6 +39,18 @@ const std::map<std::string, std::function<void(Problem&)>>& carried() {
   return all;
 }
 
+/// Calls work(problem) for each of these, with both elements.
+template <class Work>
+void for_each_carried(const Work& work) {
+  for (const auto& [name, change] : carried())
+    for (const char* element : {"linear", "nodal"}) {
+      SCOPED_TRACE(name + ", " + element);
+      Problem problem = pressed_organ(lump(), element);
+      change(problem);
+      work(problem);
+    }
+}
+
 template <class B>
 void take(Simulation<B>& simulation, int steps) {
   for (int n = 0; n < steps; ++n)
@@ -70,22 +82,18 @@ TYPED_TEST_SUITE(SavedOnRanks, EachBackend);
 
 TYPED_TEST(SavedOnRanks, HaveTheBytesOfOneProcess) {
   using B = TypeParam;
-  for (const auto& [name, change] : carried())
-    for (const char* element : {"linear", "nodal"}) {
-      SCOPED_TRACE(name + ", " + element);
-      Problem problem = pressed_organ(lump(), element);
-      change(problem);
-      Simulation<B> one(problem);
-      take(one, 4);
-      EXPECT_EQ(one.energies().contact > 0, !problem.contact.obstacles.empty());
-      if (problem.contact.obstacles.size() == 1) {
-        EXPECT_LT(one.friction_work(), 0) << "no slip";
-      }
-      const std::vector<unsigned char> bytes = one.save().bytes;
-      // with 7 ranks some have no vertex, and most no contact
-      for (const int count : {1, 2, 3, 7})
-        EXPECT_TRUE(gone_on<B>(problem, {}, 4, count).bytes == bytes) << count << " ranks";
+  for_each_carried([](const Problem& problem) {
+    Simulation<B> one(problem);
+    take(one, 4);
+    EXPECT_EQ(one.energies().contact > 0, !problem.contact.obstacles.empty());
+    if (problem.contact.obstacles.size() == 1) {
+      EXPECT_LT(one.friction_work(), 0) << "no slip";
     }
+    const std::vector<unsigned char> bytes = one.save().bytes;
+    // with 7 ranks some have no vertex, and most no contact
+    for (const int count : {1, 2, 3, 7})
+      EXPECT_TRUE(gone_on<B>(problem, {}, 4, count).bytes == bytes) << count << " ranks";
+  });
 }
 
 // Slots of contact that were left keep what they had.
@@ -106,22 +114,18 @@ TYPED_TEST(SavedOnRanks, HaveTheBytesOfOneProcessAfterTheBallHasLeft) {
 
 TYPED_TEST(SavedOnRanks, GoOnBitForBitOnAnotherNumberOfRanks) {
   using B = TypeParam;
-  for (const auto& [name, change] : carried())
-    for (const char* element : {"linear", "nodal"}) {
-      SCOPED_TRACE(name + ", " + element);
-      Problem problem = pressed_organ(lump(), element);
-      change(problem);
-      Simulation<B> whole(problem), first(problem), last(problem);
-      take(whole, 9), take(first, 3);
-      const SavedState on_3 = gone_on<B>(problem, first.save(), 3, 3),
-                       on_2 = gone_on<B>(problem, on_3, 3, 2);
-      EXPECT_TRUE(on_2.bytes == whole.save().bytes);
-      last.restore(on_2);
-      EXPECT_EQ(last.macro_steps(), 9);
-      take(whole, 2), take(last, 2);
-      EXPECT_EQ(last.positions(), whole.positions());
-      EXPECT_EQ(last.velocities(), whole.velocities());
-    }
+  for_each_carried([](const Problem& problem) {
+    Simulation<B> whole(problem), first(problem), last(problem);
+    take(whole, 9), take(first, 3);
+    const SavedState on_3 = gone_on<B>(problem, first.save(), 3, 3),
+                     on_2 = gone_on<B>(problem, on_3, 3, 2);
+    EXPECT_TRUE(on_2.bytes == whole.save().bytes);
+    last.restore(on_2);
+    EXPECT_EQ(last.macro_steps(), 9);
+    take(whole, 2), take(last, 2);
+    EXPECT_EQ(last.positions(), whole.positions());
+    EXPECT_EQ(last.velocities(), whole.velocities());
+  });
 }
 
 // The state before a failure, to which a simulation goes back, is part of what is saved.
