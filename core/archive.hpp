@@ -61,6 +61,9 @@ class Archive {
   Archive(Task task, KeptValues<B>& kept, const Exec& exec)
       : task_(task), kept_(&kept), exec_(exec) {}
 
+  /// Says which level the fields that are named next belong to.
+  void set_level(std::size_t level) { level_ = level; }
+
   template <class Number>
   void number(Number& value) {
     static_assert(std::is_arithmetic_v<Number>);
@@ -114,14 +117,14 @@ class Archive {
   void field(const std::string& what, const View& view, RowItems items = RowItems::whole) {
     std::size_t row = sizeof(typename View::value_type);
     for (std::size_t k = 1; k < View::rank(); ++k) row *= view.extent(k);
-    field(what, view, RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0});
+    field(what, view, RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0, level_});
   }
   template <class View>
   void field(const std::string& what, const View& view, const RowsOfField& rows) {
     const std::size_t size = fields::bytes_of(view);
     if (task_ == Task::measure) return owns(view);
     if (task_ == Task::keep || task_ == Task::put_back) return exchange(view.data(), size, rows);
-    const bool shared = shared_ && rows.of != RowItems::whole;
+    const bool shared = shared_ && shared_->shares(rows);
     if (task_ == Task::save) {
       std::vector<unsigned char> own(size);
       Kokkos::fence("plica::archive");
@@ -192,7 +195,8 @@ class Archive {
   std::vector<unsigned char>* bytes_ = nullptr;
   const SharedFields* shared_ = nullptr;
   KeptValues<B>* kept_ = nullptr;
-  std::size_t at_ = 0;  ///< place in the bytes or values
+  std::size_t at_ = 0;     ///< place in the bytes or values
+  std::size_t level_ = 0;  ///< level of what is named
   Exec exec_;
   std::set<const void*> counted_;
   std::size_t measured_ = 0;

@@ -56,6 +56,7 @@ void each_array(T& x, const Use& use) {
     PLICA_MEMBERS(7, a, b, c, d, e, f, g)
     PLICA_MEMBERS(8, a, b, c, d, e, f, g, h)
     PLICA_MEMBERS(9, a, b, c, d, e, f, g, h, i)
+    PLICA_MEMBERS(10, a, b, c, d, e, f, g, h, i, j)
     PLICA_MEMBERS(11, a, b, c, d, e, f, g, h, i, j, k)
     PLICA_MEMBERS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
     PLICA_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)

@@ -143,6 +143,8 @@ struct ViscousHistory {
 
 template <class B>
 struct RankLevel;
+template <class B>
+class GatheredVertices;
 
 /// One resolution of the body: constants, state, work arrays, and the exchange of states with its
 /// neighbour levels. Members that a scene does not need stay empty.
@@ -167,6 +169,11 @@ struct LevelData {
   Transfer<B> to_finer;    ///< P: level i -> i-1, empty on the finest
   /// Adjoint of to_finer, where a cycle conserves what it hands down
   Restriction<B> adjoint;
+  /// Vertices that from_finer and adjoint read of level i-1, and that to_finer reads of this level,
+  /// see kernels/halo.hpp; none: one process has all of that level
+  std::shared_ptr<const GatheredVertices<B>> of_finer, for_finer;
+  /// Inverse masses of the vertices of level i-1 that adjoint reads [1/kg]
+  Scalars<B> finer_inverse_mass;
   /// State at the start of this cycle, from which variations are mapped
   State<B> start;
   /// State at the start of the last cycle, from which variations are mapped

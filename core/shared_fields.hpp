@@ -9,7 +9,7 @@ namespace plica {
 /// Items that the rows of a field are of, where several ranks may share them.
 enum class RowItems {
   whole,     ///< items that each rank has all of
-  vertices,  ///< vertices of level 0
+  vertices,  ///< vertices of a level
   elements,  ///< a rank's own elements, in whole packs; they follow those of the rank before it
   contacts,  ///< slots of contact: of each obstacle one for each surface point
   /// slots of contact, of which the field has the surface points' numbers; negative: none
@@ -21,12 +21,15 @@ struct RowsOfField {
   RowItems of = RowItems::whole;
   std::size_t bytes = 0;  ///< size of a row
   bool present = true;    ///< false: the field is left out on all ranks
+  std::size_t level = 0;  ///< level that the items are of
 };
 
 /// Maker of whole fields from parts of them, and back. Fields are bytes in the host's memory.
 class SharedFields {
  public:
   virtual ~SharedFields() = default;
+  /// Returns whether ranks share these rows. The functions below are for such rows alone.
+  virtual bool shares(const RowsOfField& rows) const = 0;
   /// Returns the size of the whole field.
   virtual std::size_t bytes(const RowsOfField& rows) const = 0;
   /// Returns the whole field on rank 0, and nothing elsewhere. All ranks call this.

@@ -34,8 +34,11 @@ struct Restriction {
 /// transpose, in gather form, so that every vertex adds its points in a fixed order.
 template <class B>
 struct EmbeddedSurface {
-  int points = 0;         ///< points of the surface; 0: the level carries none
-  Vectors<B> rest;        ///< [points][3]
+  int points = 0;     ///< points of the surface; 0: the level carries none
+  Vectors<B> rest;    ///< [points][3]
+  Indices<B> number;  ///< [points] number in the whole surface; empty: the rank has all of it
+  /// [points] 1 where this rank owns the point; 0: a copy, which sums leave out; empty: it owns all
+  Indices<B> counted;
   Transfer<B> embedding;  ///< a row per point, in order
   int touched = 0;        ///< vertices with a point in one of their tetrahedra
   Indices<B> vertex;      ///< [touched]

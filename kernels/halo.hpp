@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <map>
 #include <memory>
 #include <plica/core/fields.hpp>
@@ -61,9 +62,13 @@ class Halo {
 
   /// Receives the rows of `array` that other ranks own, of `width` numbers each. Waits.
   void exchange(const Exec& exec, Real* array, int width) const {
+    exchange(exec, array, array, width);
+  }
+  /// Sends rows of `from`, and receives those of `array`. Waits.
+  void exchange(const Exec& exec, const Real* from, Real* array, int width) const {
     const int count = static_cast<int>(rows_.sent.size());
     update_vertices<B>(exec, "plica::pack_rows", count,
-                       PackRows<Real, Indices<B>>{array, sent_, out_.data(), width});
+                       PackRows<Real, Indices<B>>{from, sent_, out_.data(), width});
     fence(exec, "plica::halo");
     const std::size_t bytes = sizeof(Real) * static_cast<std::size_t>(width);
     if (staged_) fields::download(exec, host_out_.data(), out_.data(), rows_.sent.size() * bytes);
@@ -125,6 +130,77 @@ class Halo {
     put(rows_.before, rows_.received(), rows_.before + rows_.own);
   }
 };
+
+/// Vertices of a level that several ranks share, gathered for a rank's part of the level beside it.
+///
+///   a field of the level   | copies | own rows | copies |
+///                                      pack, by `own`
+///   gathered               | from ranks below | own | from ranks above |
+template <class B>
+class GatheredVertices {
+ public:
+  using Real = typename B::Real;
+  using Exec = typename B::Exec;
+  static constexpr int places = 4;  ///< numbers of fields that can be gathered side by side
+
+  /// Makes the messages. All ranks make them in the same order.
+  /// @param own  local rows of the level that are the rank's own among the gathered ones
+  GatheredVertices(Ranks& ranks, const std::string& what, const HaloRows& rows,
+                   const std::vector<int>& own)
+      : before_(rows.before),
+        own_(to_device<Indices<B>>("gathered.own", own)),
+        halo_(ranks, what, rows, {1, 3}) {
+    const auto n = static_cast<std::size_t>(rows.received() + rows.own);
+    for (Vectors<B>& field : fields_) field = zeros<Vectors<B>>("plica::gathered", n);
+  }
+
+  /// Returns a field of the level at the gathered vertices, until the next one takes its place.
+  /// Waits.
+  const Vectors<B>& operator()(const Exec& exec, const Vectors<B>& field, int place) const {
+    const Vectors<B>& gathered = fields_[static_cast<std::size_t>(place)];
+    gather(exec, field.data(), gathered.data(), 3);
+    return gathered;
+  }
+  /// Returns such a field of numbers, in memory of its own.
+  Scalars<B> operator()(const Exec& exec, const Scalars<B>& field) const {
+    const auto gathered = zeros<Scalars<B>>("plica::gathered.numbers", fields_[0].extent(0));
+    gather(exec, field.data(), gathered.data(), 1);
+    return gathered;
+  }
+
+ private:
+  int before_;      // number of gathered vertices from ranks below
+  Indices<B> own_;  // local rows
+  Halo<B> halo_;
+  std::array<Vectors<B>, places> fields_;
+
+  void gather(const Exec& exec, const Real* from, Real* to, int width) const {
+    update_vertices<B>(
+        exec, "plica::gather_own", static_cast<int>(own_.extent(0)),
+        PackRows<Real, Indices<B>>{from, own_, to + std::ptrdiff_t{before_} * width, width});
+    halo_.exchange(exec, from, to, width);
+  }
+};
+
+/// Returns a field of a level for the level beside it: as it is, or gathered from all ranks.
+template <class B>
+Vectors<B> sources(const typename B::Exec& exec,
+                   const std::shared_ptr<const GatheredVertices<B>>& gathered,
+                   const Vectors<B>& field, int place = 0) {
+  return gathered ? (*gathered)(exec, field, place) : field;
+}
+/// Returns a state of a level for the level beside it.
+/// @param which  0 or 1: both can be in use at the same time
+template <class B>
+State<B> sources(const typename B::Exec& exec,
+                 const std::shared_ptr<const GatheredVertices<B>>& gathered, const State<B>& state,
+                 int which = 0) {
+  if (!gathered || state.u.extent(0) == 0) return state;
+  State<B> of;
+  of.u = (*gathered)(exec, state.u, 2 * which);
+  of.v = (*gathered)(exec, state.v, 2 * which + 1);
+  return of;
+}
 
 /// Part of a level on one of several ranks, and its messages.
 template <class B>

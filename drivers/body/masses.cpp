@@ -73,10 +73,8 @@ std::vector<double> inherited_masses(const Embedding& up, const std::vector<doub
   return mass;
 }
 
-template <class B>
-Restriction<B> build_restriction(const Embedding& up, const std::vector<double>& fine,
-                                 const Embedding& down) {
-  using Real = typename B::Real;
+std::vector<RestrictionRow> restriction_rows(const Embedding& up, const std::vector<double>& fine,
+                                             const Embedding& down) {
   struct Entry {
     int source;
     double weight, average;
@@ -87,8 +85,7 @@ Restriction<B> build_restriction(const Embedding& up, const std::vector<double>&
       if (const double w = up.weights[a][c]; w != 0)
         of[static_cast<std::size_t>(up.vertices[a][c])].push_back(
             {static_cast<int>(a), w, w * fine[a]});
-  std::vector<int> first{0}, source;
-  std::vector<Real> weight, average;
+  std::vector<RestrictionRow> rows;
   for (std::size_t a = 0; a < of.size(); ++a) {
     if (of[a].empty()) {
       for (std::size_t c = 0; c < 4; ++c)
@@ -97,15 +94,29 @@ Restriction<B> build_restriction(const Embedding& up, const std::vector<double>&
     }
     double total = 0;
     for (const Entry& e : of[a]) total += e.average;
+    RestrictionRow& row = rows.emplace_back();
     for (const Entry& e : of[a]) {
-      source.push_back(e.source);
-      weight.push_back(static_cast<Real>(e.weight));
-      average.push_back(static_cast<Real>(e.average / total));
+      row.source.push_back(e.source);
+      row.weight.push_back(e.weight);
+      row.average.push_back(e.average / total);
     }
+  }
+  return rows;
+}
+
+template <class B>
+Restriction<B> build_restriction(const std::vector<RestrictionRow>& rows) {
+  using Real = typename B::Real;
+  std::vector<int> first{0}, source;
+  std::vector<Real> weight, average;
+  for (const RestrictionRow& row : rows) {
+    source.insert(source.end(), row.source.begin(), row.source.end());
+    for (const double w : row.weight) weight.push_back(static_cast<Real>(w));
+    for (const double w : row.average) average.push_back(static_cast<Real>(w));
     first.push_back(static_cast<int>(source.size()));
   }
   Restriction<B> r;
-  r.rows = static_cast<int>(of.size());
+  r.rows = static_cast<int>(rows.size());
   r.first = to_device<Indices<B>>("restriction.first", first);
   r.source = to_device<Indices<B>>("restriction.source", source);
   r.weight = to_device<Scalars<B>>("restriction.weight", weight);
@@ -115,7 +126,7 @@ Restriction<B> build_restriction(const Embedding& up, const std::vector<double>&
 
 #define PLICA_INSTANTIATE(Real, Exec)                                               \
   template Restriction<Backend<Real, Exec>> build_restriction<Backend<Real, Exec>>( \
-      const Embedding&, const std::vector<double>&, const Embedding&);
+      const std::vector<RestrictionRow>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

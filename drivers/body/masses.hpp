@@ -27,10 +27,17 @@ std::vector<PieceReport> piece_reports(const TetMesh& mesh, const std::vector<do
 std::vector<double> inherited_masses(const Embedding& up, const std::vector<double>& fine,
                                      const std::vector<double>& own, int& without);
 
-/// Builds the adjoint of `up`. A coarse vertex without a finer one in its elements averages the
-/// finer element it lies in (`down`).
+/// Rows of a restriction on the host, see Restriction.
+struct RestrictionRow {
+  std::vector<int> source;              ///< finer vertices, ascending
+  std::vector<double> weight, average;  ///< [source]
+};
+
+/// Returns the adjoint of `up`, a row for each coarse vertex. A coarse vertex without a finer one
+/// in its elements averages the finer element it lies in (`down`).
+std::vector<RestrictionRow> restriction_rows(const Embedding& up, const std::vector<double>& fine,
+                                             const Embedding& down);
 template <class B>
-Restriction<B> build_restriction(const Embedding& up, const std::vector<double>& fine,
-                                 const Embedding& down);
+Restriction<B> build_restriction(const std::vector<RestrictionRow>& rows);
 
 }  // namespace plica

@@ -74,7 +74,6 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   choose_held(surface.held);
   make_laws(options, surface);
   choose_whole(options.whole_surface, surface.surface);
-  if (surface.kept) keep_points(surface);
   if (couples()) connect(surface.surface);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge),
@@ -125,18 +124,6 @@ void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& su
   const double edge = mean_surface_edge(surface);
   for (const auto& obstacle : obstacles_)
     whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < wide * edge));
-}
-
-/// Leaves out the points that other ranks have; the laws are those of the whole surface.
-template <class B>
-void Contact<B>::keep_points(const TouchingSurface& surface) {
-  points_ = static_cast<int>(surface.kept->size());
-  if (!surface.counted.empty())
-    counted_ = to_device<Indices<B>>("contact.counted", surface.counted);
-  if (surface.body.empty()) return;
-  std::vector<int> body;
-  for (const int p : *surface.kept) body.push_back(surface.body[static_cast<std::size_t>(p)]);
-  body_ = to_device<Indices<B>>("contact.body", body);
 }
 
 template <class B>
@@ -226,7 +213,7 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   const Layer& first = layers.front();
   stiffness_ = scale * first.modulus * first.area / first.edge;
   damping_ = options.damping_scale * critical(stiffness_, first.density * first.area * first.edge);
-  body_ = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
+  body_ = of.body;
   laws_ = to_device<decltype(laws_)>("contact.laws", laws);
   if (attached_count_ > 0) attach(of);
 }
@@ -302,15 +289,26 @@ void Contact<B>::connect_edges(const TriangleSurface& surface) {
   mesh_.side = to_device<Indices<B>>("contact.side", side);
 }
 
+/// Returns the body of each point that the level has.
+template <class B>
+Indices<B> Contact<B>::bodies_of(const EmbeddedSurface<B>& surface) const {
+  if (body_.empty()) return {};
+  if (surface.number.extent(0) == 0) return to_device<Indices<B>>("contact.body", body_);
+  std::vector<int> body;
+  for (const int p : host_values(Exec(), surface.number))
+    body.push_back(body_[static_cast<std::size_t>(p)]);
+  return to_device<Indices<B>>("contact.body", body);
+}
+
 template <class B>
 ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, int vertices,
                                            bool implicit) const {
   ContactRecords<B> records;
-  records.points = points_, records.obstacles = obstacles(), records.bodies = bodies_,
+  records.points = surface.points, records.obstacles = obstacles(), records.bodies = bodies_,
   records.pairs = pairs_;
   records.faces = whole() > 0 ? mesh_.triangles : 0;
   records.reach = records.edge = static_cast<Real>(reach_);
-  records.law = laws_, records.body = body_, records.counted = counted_;
+  records.law = laws_, records.body = bodies_of(surface), records.counted = surface.counted;
   records.mesh = mesh_, records.grasps = grasps_, records.attached = attached_;
   const auto slots = static_cast<std::size_t>(records.slots());
   const auto vectors = [&](const char* name) { return zeros<Vectors<B>>(name, slots); };
@@ -322,7 +320,8 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.touching = zeros<Doubles<B>>("plica::contact.touching", 1);
   records.near = zeros<Indices<B>>("plica::contact.near", slots);
   records.close = zeros<Indices<B>>("plica::contact.close", 1);
-  records.places = zeros<Vectors<B>>("plica::contact.places", static_cast<std::size_t>(points_));
+  records.places =
+      zeros<Vectors<B>>("plica::contact.places", static_cast<std::size_t>(surface.points));
   records.fastest = zeros<Doubles<B>>("plica::contact.fastest", 1);
   records.point = unset<typename ContactRecords<B>::Stencil>("plica::contact.point", slots);
   fill(Exec(), records.point, -1);
@@ -343,7 +342,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.response = zeros<Scalars<B>>("plica::contact.response", slots);
   if (pairs_)
     records.partner = to_device<Indices<B>>(
-        "contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
+        "contact.partner", std::vector<int>(static_cast<std::size_t>(surface.points), -1));
   // a record has at most as many entries as its points have vertices of weight other than 0
   std::vector<int> place(static_cast<std::size_t>(vertices), -1);
   const auto touched = host_values(Exec(), surface.vertex);
@@ -352,14 +351,15 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   std::size_t of_points = 0;
   std::size_t most = 0;
   const auto weights = host_values(Exec(), surface.embedding.weight);
-  for (std::size_t p = 0; p < static_cast<std::size_t>(points_); ++p) {
+  for (std::size_t p = 0; p < static_cast<std::size_t>(surface.points); ++p) {
     std::size_t own = 0;
     for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
     of_points += own, most = std::max(most, own);
   }
-  const std::size_t entries = static_cast<std::size_t>(records.obstacles) *
-                                  (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
-                              (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
+  const std::size_t entries =
+      static_cast<std::size_t>(records.obstacles) *
+          (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
+      (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(surface.points) : 0);
   ContactTranspose<B>& W = records.transpose;
   W.vertices = list("plica::contact.vertices", surface.touched);
   W.place = to_device<Indices<B>>("contact.place", place);

@@ -66,8 +66,6 @@ struct TouchingSurface {
   std::vector<std::vector<int>> held;
   double edge = 0;  ///< mean edge of all bodies [m]
   double size = 0;  ///< size of the whole surface [m]; a point deeper in an obstacle is lost
-  std::optional<std::vector<int>> kept = {};  ///< points that this rank has; none: all
-  std::vector<int> counted = {};  ///< [kept] 1: the rank owns the point; empty: it owns all
 };
 
 /// Contact of the body's surface with all obstacles and with itself: the part that all levels
@@ -91,6 +89,7 @@ class Contact {
 
   /// Returns a surface point that is lost, found since the last call; -1: none. Waits.
   /// A point is lost that is deeper in an obstacle than deepest(), or whose depth is not a number.
+  /// On one of several ranks: found by this one.
   int take_lost(const Exec&) const;
   double deepest() const { return deepest_; }  ///< largest depth of a point that is not lost [m]
 
@@ -149,7 +148,7 @@ class Contact {
   double stiffness_ = 0, damping_ = 0, reach_, deepest_;
   Indices<B> lost_;  ///< [1] last lost point + 1, see DepthWatch
   typename ContactRecords<B>::Laws laws_;
-  Indices<B> body_, counted_;
+  std::vector<int> body_;  ///< [points] body of each; empty: there is one
   Doubles<B> memory_;
   Grasps<B> grasps_;
   Attachments<B> attached_;
@@ -159,12 +158,12 @@ class Contact {
   SurfaceMesh<B> mesh_;
   PairLimits<Real> limits_;
 
+  Indices<B> bodies_of(const EmbeddedSurface<B>& surface) const;
   void make_laws(const ContactOptions& options, const TouchingSurface& surface);
   void attach(const TouchingSurface& surface);
   void make_memory(const ContactOptions& options);
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
-  void keep_points(const TouchingSurface& surface);
   void connect(const TriangleSurface& surface);
   void connect_edges(const TriangleSurface& surface);
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/cycles/shared_step.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/time/updates.hpp>
 #include <plica/kernels/transfer/transfer.hpp>
 
@@ -55,7 +56,8 @@ class FasCycle final : public SharedStep<B> {
     h.clock.time("restrict", i, [&] {
       update_vertices<B>(
           h.exec(), "plica::restrict", coarse.model.vertices,
-          RestrictState<B>{coarse.adjoint, fine.state, coarse.state, coarse.model.inverse_mass});
+          RestrictState<B>{coarse.adjoint, sources<B>(h.exec(), coarse.of_finer, fine.state),
+                           coarse.state, coarse.model.inverse_mass});
       hold_sliding(h.exec(), coarse, coarse.state);
       coarse.start.copy(h.exec(), coarse.state);
     });
@@ -75,9 +77,10 @@ class FasCycle final : public SharedStep<B> {
     coarse.set_correction({});
     coarse.evaluate(coarse.state, time, coarse.f, contact_of(coarse, t));
     h.clock.time("correct", i, [&] {
-      update_vertices<B>(h.exec(), "plica::correction", coarse.model.vertices,
-                         DefectCorrection<B>{coarse.adjoint, fine.f, fine.model.inverse_mass,
-                                             coarse.model.inverse_mass, coarse.f, tau});
+      update_vertices<B>(
+          h.exec(), "plica::correction", coarse.model.vertices,
+          DefectCorrection<B>{coarse.adjoint, sources<B>(h.exec(), coarse.of_finer, fine.f),
+                              coarse.finer_inverse_mass, coarse.model.inverse_mass, coarse.f, tau});
     });
     coarse.set_correction(tau);
     coarse.add_correction(coarse.f);
@@ -86,8 +89,10 @@ class FasCycle final : public SharedStep<B> {
   static void interpolate_variation(Hierarchy<B>& h, int i) {
     const LevelData<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
-      map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state,
-                                  coarse.start, fine.state, fine.state, {});
+      map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer,
+                                  sources<B>(h.exec(), coarse.for_finer, coarse.state),
+                                  sources<B>(h.exec(), coarse.for_finer, coarse.start, 1),
+                                  fine.state, fine.state, {});
     });
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/cycles/shared_step.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/transfer/transfer.hpp>
 #include <utility>
 
@@ -25,8 +26,9 @@ class VCycle final : public SharedStep<B> {
     for (int i = 0; i < h.count() && h.count() > 1; ++i) {
       LevelData<B>& level = h[i];
       if (i > 0)
-        map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {},
-                                {}, level.state, {});
+        map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer,
+                                sources<B>(h.exec(), level.of_finer, h[i - 1].state), {}, {},
+                                level.state, {});
       hold_sliding(h.exec(), level, level.state);
       if (keeps_start) level.start.copy(h.exec(), level.state);
       if (keeps_previous && i + 1 < h.count()) level.previous.copy(h.exec(), level.state);
@@ -67,8 +69,10 @@ class VCycle final : public SharedStep<B> {
   static void restrict_state(Hierarchy<B>& h, int i) {
     const LevelData<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {
-      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous,
-                          coarse.start, coarse.state, coarse.drift_limit);
+      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer,
+                          sources<B>(h.exec(), coarse.of_finer, fine.state),
+                          base<Down>(h, coarse.of_finer, fine.previous), coarse.start, coarse.state,
+                          coarse.drift_limit);
       hold_sliding(h.exec(), coarse, coarse.state);
     });
   }
@@ -76,9 +80,20 @@ class VCycle final : public SharedStep<B> {
   static void interpolate_state(Hierarchy<B>& h, int i) {
     const LevelData<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
-      map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start,
-                        fine.state, fine.state, fine.drift_limit);
+      map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer,
+                        sources<B>(h.exec(), coarse.for_finer, coarse.state),
+                        base<Up>(h, coarse.for_finer, coarse.start), fine.state, fine.state,
+                        fine.drift_limit);
     });
+  }
+
+  /// Returns the state from which a mapping takes variations, where it takes them.
+  template <class Rule>
+  static State<B> base(const Hierarchy<B>& h,
+                       const std::shared_ptr<const GatheredVertices<B>>& gathered,
+                       const State<B>& state) {
+    if constexpr (Rule::needs_variation) return sources<B>(h.exec(), gathered, state, 1);
+    return {};
   }
 };
 

@@ -129,17 +129,18 @@ std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const Leve
   auto made = std::make_shared<RankLevel<B>>(RankLevel<B>{
       part.ranks, part.part, to_device<Indices<B>>("level.number", part.part.vertex), {}, {}, {}});
   Ranks& ranks = *part.ranks;
+  const std::string of_level = " of level " + std::to_string(part.number);
   if (element == Element::linear) {
-    made->shares = std::make_unique<Halo<B>>(ranks, "shares of level 0", part.shares,
+    made->shares = std::make_unique<Halo<B>>(ranks, "shares" + of_level, part.shares,
                                              std::vector{3}, level.partial.data());
     return made;
   }
   constexpr int record = 12;  // numbers of a slot
   const bool smoothed = level.model.rows.bulk_excess.extent(0) > 0;
   made->vertices =
-      std::make_unique<Halo<B>>(ranks, "vertices of level 0", part.vertices, std::vector{3});
+      std::make_unique<Halo<B>>(ranks, "vertices" + of_level, part.vertices, std::vector{3});
   made->slots =
-      std::make_unique<Halo<B>>(ranks, "records of level 0", slots,
+      std::make_unique<Halo<B>>(ranks, "records" + of_level, slots,
                                 smoothed ? std::vector{1, 2, record} : std::vector{record});
   return made;
 }

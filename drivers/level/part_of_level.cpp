@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstring>
 #include <plica/core/grouping.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/drivers/elastic/build_patches.hpp>
@@ -237,10 +238,67 @@ std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
 
 LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block) {
   const auto runs = runs_of_patches(mesh);
-  LevelPart made = part_of_level(mesh, element, runs, rank_ranges(mesh, runs, ranks.count(), block),
-                                 ranks.own());
-  made.ranks = &ranks;
+  RankRanges ranges = rank_ranges(mesh, runs, ranks.count(), block);
+  LevelPart made = part_of_level(mesh, element, runs, ranges, ranks.own());
+  made.ranks = &ranks, made.ranges = std::move(ranges);
   return made;
+}
+
+int ReadVertices::place(int v) const {
+  return static_cast<int>(std::ranges::lower_bound(vertex, v) - vertex.begin());
+}
+
+ReadVertices read_vertices(const LevelPart& of, std::vector<int> read) {
+  Ranks& ranks = *of.ranks;
+  std::ranges::sort(read);
+  read.erase(std::ranges::unique(read).begin(), read.end());
+  std::vector<std::vector<int>> asked(index_of(ranks.count()));
+  for (const int v : read) asked[index_of(of.ranges.owner(v))].push_back(v);
+  const int first = of.ranges.vertex[index_of(ranks.own())] - of.part.first_owned;
+  const auto local = [&](std::vector<int> numbers) {
+    for (int& v : numbers) v -= first;
+    return numbers;
+  };
+  ReadVertices made;
+  made.own = local(std::exchange(asked[index_of(ranks.own())], {}));
+  made.rows.own = static_cast<int>(made.own.size());
+  std::vector<Bytes> messages;
+  for (const std::vector<int>& numbers : asked) {
+    const auto bytes = std::as_bytes(std::span(numbers));
+    messages.emplace_back(bytes.begin(), bytes.end());
+  }
+  const std::vector<Bytes> wanted = ranks.to_all(messages);
+  ByRank sent(ranks.count()), received(ranks.count());
+  for (int q = 0; q < ranks.count(); ++q) {
+    std::vector<int> numbers(wanted[index_of(q)].size() / sizeof(int));
+    if (!numbers.empty())
+      std::memcpy(numbers.data(), wanted[index_of(q)].data(), numbers.size() * sizeof(int));
+    sent.of(q) = local(std::move(numbers)), received.of(q) = asked[index_of(q)];
+    if (q < ranks.own()) made.rows.before += static_cast<int>(asked[index_of(q)].size());
+  }
+  HaloRows rows = ByRank::halo(sent, received);
+  rows.before = made.rows.before, rows.own = made.rows.own;
+  made.rows = std::move(rows), made.vertex = std::move(read);
+  return made;
+}
+
+Embedding embedding_of_part(const Embedding& whole, const RankPart* part) {
+  if (!part) return whole;
+  Embedding own = whole;
+  own.vertices = part->local(whole.vertices), own.weights = part->local(whole.weights);
+  return own;
+}
+
+std::vector<int> read_by(const Embedding& embedding) {
+  std::vector<int> all;
+  for (const auto& four : embedding.vertices) all.insert(all.end(), four.begin(), four.end());
+  return all;
+}
+
+Embedding with_places(Embedding embedding, const ReadVertices& read) {
+  for (auto& four : embedding.vertices)
+    for (int& v : four) v = read.place(v);
+  return embedding;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <plica/core/ranks.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
   Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
+  RankRanges ranges;       ///< what each of them owns
+  int number = 0;          ///< of the level, for the names of messages
   RankPart part;           ///< numbers of its vertices and tetrahedra
   TetMesh mesh;            ///< vertices and tetrahedra of the part, with local numbers
   /// own runs, of local tetrahedra; of linear elements
@@ -57,6 +60,28 @@ std::vector<AssembledLoad> loads_of_part(const std::vector<AssembledLoad>& whole
                                          const RankPart& part);
 /// Returns the sets with the vertices that the rank owns, as local numbers.
 std::vector<HeldSet> held_by_part(const std::vector<HeldSet>& whole, const RankPart& part);
+
+/// Vertices of a shared level that a rank reads for its part of the level beside it.
+struct ReadVertices {
+  std::vector<int> vertex;  ///< numbers in the whole mesh, ascending
+  HaloRows rows;            ///< what ranks send to each other; `sent` are local rows of the level
+  std::vector<int> own;     ///< local rows of those that the rank owns itself
+
+  /// Returns the place of a vertex of the whole mesh in `vertex`, which has it.
+  int place(int v) const;
+};
+
+/// Finds what each rank sends of a shared level. All ranks call this.
+/// @param of    this rank's part of the level
+/// @param read  vertices that this rank reads, by their numbers in the whole mesh, in any order
+ReadVertices read_vertices(const LevelPart& of, std::vector<int> read);
+
+/// Returns the rows of an embedding for a part's vertices; null: for all.
+Embedding embedding_of_part(const Embedding& whole, const RankPart* part);
+/// Returns the vertices that an embedding reads.
+std::vector<int> read_by(const Embedding& embedding);
+/// Returns an embedding whose vertices are places in what is read.
+Embedding with_places(Embedding embedding, const ReadVertices& read);
 
 /// Numbers of a mesh that is shared out to ranks.
 struct RankPlan {

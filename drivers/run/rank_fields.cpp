@@ -35,52 +35,68 @@ void renumber(std::vector<unsigned char>& field, const Number& number) {
 
 }  // namespace
 
-RankFields::RankFields(Ranks& ranks, RankItems own) : ranks_(ranks), own_(std::move(own)) {
+RankFields::RankFields(Ranks& ranks, std::vector<RankItems> levels) : ranks_(ranks) {
+  for (RankItems& own : levels) levels_.push_back(found(std::move(own)));
+}
+
+RankFields::LevelItems RankFields::found(RankItems own) const {
+  LevelItems level{.own = std::move(own)};
+  if (!level.own.part) return level;
   std::vector<int> points;
-  for (const int p : own_.owned_points) points.push_back(own_.points[index_of(p)]);
-  points_of_ = each_ranks(ranks, points);
-  for (const std::vector<int>& one : points_of_) points_ += one.size();
-  const auto sizes = each_ranks(ranks, std::vector{static_cast<std::uint64_t>(own_.part->owned()),
-                                                   static_cast<std::uint64_t>(own_.element_bytes)});
+  for (const int p : level.own.owned_points) points.push_back(level.own.points[index_of(p)]);
+  level.points_of = each_ranks(ranks_, points);
+  for (const std::vector<int>& one : level.points_of) level.points += one.size();
+  const auto sizes =
+      each_ranks(ranks_, std::vector{static_cast<std::uint64_t>(level.own.part->owned()),
+                                     static_cast<std::uint64_t>(level.own.element_bytes)});
   for (std::size_t r = 0; r < sizes.size(); ++r) {
-    if (r == index_of(ranks.own())) elements_before_ = elements_;
-    vertices_ += sizes[r][0], elements_ += sizes[r][1];
+    if (r == index_of(ranks_.own())) level.elements_before = level.elements;
+    level.vertices += sizes[r][0], level.elements += sizes[r][1];
   }
+  return level;
+}
+
+bool RankFields::shares(const RowsOfField& rows) const {
+  return rows.of != RowItems::whole && levels_[rows.level].own.part;
 }
 
 std::size_t RankFields::bytes(const RowsOfField& rows) const {
+  const LevelItems& level = levels_[rows.level];
   if (!rows.present && rows.of == RowItems::vertices) return 0;
   switch (rows.of) {
     case RowItems::vertices:
-      return vertices_ * rows.bytes;
+      return level.vertices * rows.bytes;
     case RowItems::elements:
-      return elements_;
+      return level.elements;
     default:
-      return index_of(own_.obstacles) * points_ * rows.bytes;
+      return index_of(level.own.obstacles) * level.points * rows.bytes;
   }
 }
 
 /// Returns the rows that the rank owns, of those that it has.
-RankFields::Field RankFields::owned(const RowsOfField& rows, const Field& local) const {
+RankFields::Field RankFields::owned(const LevelItems& level, const RowsOfField& rows,
+                                    const Field& local) {
+  const RankItems& own = level.own;
   if (rows.of == RowItems::elements || local.empty()) return local;
   const auto row = [&](std::size_t i) {
     return local.begin() + static_cast<std::ptrdiff_t>(i * rows.bytes);
   };
   if (rows.of == RowItems::vertices)
-    return {row(index_of(own_.part->first_owned)), row(index_of(own_.part->last_owned))};
+    return {row(index_of(own.part->first_owned)), row(index_of(own.part->last_owned))};
   Field of_points;
-  for (int o = 0; o < own_.obstacles; ++o)
-    for (const int p : own_.owned_points) {
-      const std::size_t slot = index_of(o) * own_.points.size() + index_of(p);
+  for (int o = 0; o < own.obstacles; ++o)
+    for (const int p : own.owned_points) {
+      const std::size_t slot = index_of(o) * own.points.size() + index_of(p);
       of_points.insert(of_points.end(), row(slot), row(slot + 1));
     }
   return of_points;
 }
 
 RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local) const {
-  Field own = owned(rows, local);
+  const LevelItems& level = levels_[rows.level];
+  Field own = owned(level, rows, local);
   if (rows.of == RowItems::points_of_contacts)
-    renumber(own, [&](int p) { return own_.points[index_of(p)]; });
+    renumber(own, [&](int p) { return level.own.points[index_of(p)]; });
   std::vector<Bytes> sent(index_of(ranks_.count()));
   const auto bytes_of_own = std::as_bytes(std::span(own));
   sent.front().assign(bytes_of_own.begin(), bytes_of_own.end());
@@ -96,9 +112,9 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
       end += received[r].size();
       continue;
     }
-    for (std::size_t o = 0; o < index_of(own_.obstacles); ++o)
-      for (const int p : points_of_[r]) {
-        std::memcpy(&all[(o * points_ + index_of(p)) * rows.bytes], from, rows.bytes);
+    for (std::size_t o = 0; o < index_of(level.own.obstacles); ++o)
+      for (const int p : level.points_of[r]) {
+        std::memcpy(&all[(o * level.points + index_of(p)) * rows.bytes], from, rows.bytes);
         from += rows.bytes;
       }
   }
@@ -106,22 +122,24 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
 }
 
 RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char* whole) const {
+  const LevelItems& level = levels_[rows.level];
+  const RankItems& own = level.own;
   if (rows.of == RowItems::elements)
-    return {whole + elements_before_, whole + elements_before_ + own_.element_bytes};
+    return {whole + level.elements_before, whole + level.elements_before + own.element_bytes};
   Field all;
   const auto add = [&](std::size_t row) {
     all.insert(all.end(), whole + row * rows.bytes, whole + (row + 1) * rows.bytes);
   };
   if (rows.of == RowItems::vertices) {
-    for (const int v : own_.part->vertex) add(index_of(v));
+    for (const int v : own.part->vertex) add(index_of(v));
     return all;
   }
-  for (std::size_t o = 0; o < index_of(own_.obstacles); ++o)
-    for (const int p : own_.points) add(o * points_ + index_of(p));
+  for (int o = 0; o < own.obstacles; ++o)
+    for (const int p : own.points) add(index_of(o) * level.points + index_of(p));
   if (rows.of == RowItems::points_of_contacts)
     renumber(all, [&](int p) {
-      const auto at = std::ranges::lower_bound(own_.points, p);
-      return at != own_.points.end() && *at == p ? static_cast<int>(at - own_.points.begin()) : -1;
+      const auto at = std::ranges::lower_bound(own.points, p);
+      return at != own.points.end() && *at == p ? static_cast<int>(at - own.points.begin()) : -1;
     });
   return all;
 }

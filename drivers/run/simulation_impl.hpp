@@ -166,7 +166,8 @@ struct Simulation<B>::Impl {
   Simulation* self = nullptr;  // this simulation, on a rank that follows
   int calls = 0;               // depth of calls that the others know of
   // numbers of surface points and of tetrahedra as the ranks have them, one rank after the other
-  std::vector<int> joined_points, joined_tets;
+  std::vector<int> joined_points;
+  std::vector<std::vector<int>> joined_tets;  // per level
   double imbalance = 1;
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
@@ -234,7 +235,7 @@ struct Simulation<B>::Impl {
                             const std::vector<int>& order = {}) const;
   std::vector<Point> given(const std::vector<Point>& own, const std::vector<int>& order = {}) const;
   // returns the values of owned vertices or surface points, of those of local ones
-  std::vector<Point> of_vertices(const std::vector<Point>& local) const;
+  std::vector<Point> of_vertices(const std::vector<Point>& local, int level) const;
   std::vector<Point> of_points(const std::vector<Point>& local) const;
   int lost_point(const Contact<B>& contact);
   std::unique_ptr<RankFields> shared_fields();  // null: one process

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A simulation that several ranks share.
 //
-// Set-up is the same on all ranks, of the whole mesh; each keeps its part of level 0. Forces are
-// completed by messages (kernels/halo.hpp), sums are taken over all ranks (kernels/reduce.hpp), and
-// what is decided by sums is decided alike everywhere. So each function that sends a message or
-// changes the state is called by all ranks.
+// Set-up is the same on all ranks, of the whole meshes; each keeps its part of each level. Where
+// there is contact, each has all of the levels but the finest. Forces are completed by messages
+// (kernels/halo.hpp), sums are taken over all ranks (kernels/reduce.hpp), and what is decided by
+// sums is decided alike everywhere. So each function that sends a message or changes the state is
+// called by all ranks.
 //
 // A program calls them on every rank, or it lets rank 0 lead: there each call first tells the
 // others, which are in follow() and do the same. Files, messages and Ctrl-C are then a matter of
@@ -45,7 +46,13 @@ void Simulation<B>::Impl::join_numbers() {
     points.push_back(built.surface_point[static_cast<std::size_t>(p)]);
   joined_points = joined(*ranks, points);
   const bool nodal = built.reports.front().element == name_of(Element::nodal);
-  if (!nodal) joined_tets = joined(*ranks, part.tet);
+  for (int i = 0; i < hierarchy().count(); ++i) {
+    std::vector<int>& tets = joined_tets.emplace_back();
+    const auto& its = hierarchy()[i].ranks;
+    const bool has_runs =
+        built.reports[static_cast<std::size_t>(i)].element == name_of(Element::linear);
+    if (its && has_runs) tets = joined(*ranks, its->part.tet);
+  }
   const std::vector<int> work =
       joined(*ranks, std::vector{nodal ? part.owned() : static_cast<int>(part.tet.size())});
   double all = 0;
@@ -72,7 +79,7 @@ template <class B>
 int Simulation<B>::Impl::lost_point(const Contact<B>& contact) {
   const int point = contact.take_lost(hierarchy().exec());
   if (!ranks) return point;
-  double number = point < 0 ? -1 : built.surface_point[static_cast<std::size_t>(point)];
+  double number = point;
   ranks->most({&number, 1});
   return static_cast<int>(number);
 }
@@ -112,9 +119,10 @@ std::vector<Point> Simulation<B>::Impl::given(const std::vector<Point>& own,
 }
 
 template <class B>
-std::vector<Point> Simulation<B>::Impl::of_vertices(const std::vector<Point>& local) const {
-  if (!ranks) return local;
-  return given((*built.hierarchy)[0].ranks->part.of_owned(local));
+std::vector<Point> Simulation<B>::Impl::of_vertices(const std::vector<Point>& local,
+                                                    int level) const {
+  const auto& part = (*built.hierarchy)[level].ranks;
+  return part ? given(part->part.of_owned(local)) : local;
 }
 
 template <class B>
@@ -129,11 +137,17 @@ std::vector<Point> Simulation<B>::Impl::of_points(const std::vector<Point>& loca
 template <class B>
 std::unique_ptr<RankFields> Simulation<B>::Impl::shared_fields() {
   if (!ranks) return {};
-  const Level<B>& level = hierarchy()[0];
-  const std::size_t obstacles = level.contact() ? problem.contact.obstacles.size() : 0;
-  return std::make_unique<RankFields>(
-      *ranks, RankItems{&level.ranks->part, built.surface_point, built.owned_points,
-                        static_cast<int>(obstacles), fields::bytes_of(level.stress.memory)});
+  std::vector<RankItems> levels;
+  for (const Level<B>& level : hierarchy().levels) {
+    RankItems& own = levels.emplace_back();
+    if (!level.ranks) continue;
+    own.part = &level.ranks->part;
+    own.element_bytes = fields::bytes_of(level.stress.memory);
+    if (!level.contact()) continue;  // and then it is level 0
+    own.points = built.surface_point, own.owned_points = built.owned_points;
+    own.obstacles = static_cast<int>(problem.contact.obstacles.size());
+  }
+  return std::make_unique<RankFields>(*ranks, std::move(levels));
 }
 
 /// Returns the bytes that rank 0 has.
@@ -247,10 +261,10 @@ double Simulation<B>::Impl::follow(Call until) {
         s.contact_pressure();
         break;
       case Call::positions:
-        s.positions();
+        s.positions(static_cast<int>(told.argument));
         break;
       case Call::velocities:
-        s.velocities();
+        s.velocities(static_cast<int>(told.argument));
         break;
       case Call::surface_positions:
         s.surface_positions();
@@ -259,7 +273,7 @@ double Simulation<B>::Impl::follow(Call until) {
         s.surface_velocities();
         break;
       case Call::element_fields:
-        s.element_fields(0, told.argument > 0);
+        s.element_fields(static_cast<int>(told.argument), told.other > 0);
         break;
       case Call::ranks:
         s.ranks();

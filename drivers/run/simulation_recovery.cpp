@@ -198,12 +198,18 @@ void Simulation<B>::Impl::keep(Snapshot& to) {
 /// obstacles, contact.
 template <class B>
 void Simulation<B>::Impl::name_history(Archive<B>& archive) {
-  for (auto& level : hierarchy().levels) level.integrator->name_memory(archive);
-  for (auto& level : hierarchy().levels)
+  const auto each_level = [&](const auto& name) {
+    for (std::size_t i = 0; i < hierarchy().levels.size(); ++i)
+      archive.set_level(i), name(hierarchy().levels[i]);
+  };
+  each_level([&](Level<B>& level) { level.integrator->name_memory(archive); });
+  each_level([&](Level<B>& level) {
     if (level.viscosity) level.viscosity->name_fields(archive, level, {});
+  });
   archive.field("the memory of obstacles", memory);
-  for (auto& level : hierarchy().levels)
+  each_level([&](Level<B>& level) {
     if (level.contact()) level.response().name_kept(archive, hierarchy().exec(), level);
+  });
 }
 
 /// Replaces all snapshots by the present state: nothing can go back to a state before it.

@@ -33,7 +33,7 @@ const Vectors<B>& Simulation<B>::Impl::rest_positions(int i) {
   Vectors<B>& x = rest[static_cast<std::size_t>(i)];
   if (x.extent(0) == 0) {
     std::vector<Point> at = built.meshes[static_cast<std::size_t>(i)].vertices;
-    if (ranks) at = hierarchy()[0].ranks->part.local(at);
+    if (const auto& part = hierarchy()[i].ranks) at = part->part.local(at);
     x = to_device<Vectors<B>>("rest", rows<typename B::Real>(at));
   }
   return x;
@@ -227,19 +227,19 @@ void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInp
 template <class B>
 std::vector<Point> Simulation<B>::positions(int level) const {
   impl_->level(level);  // throws where there is no such level
-  const LedCall led(*impl_, Call::positions);
+  const LedCall led(*impl_, Call::positions, level);
   std::vector<Point> x = to_host<B>(impl_->hierarchy().exec(), displacement(level));
   const auto& rest = impl_->built.meshes[static_cast<std::size_t>(level)].vertices;
   const auto& part = impl_->hierarchy()[level].ranks;
   for (std::size_t a = 0; a < x.size(); ++a)
     x[a] += rest[part ? static_cast<std::size_t>(part->part.vertex[a]) : a];
-  return impl_->of_vertices(x);
+  return impl_->of_vertices(x, level);
 }
 template <class B>
 std::vector<Point> Simulation<B>::velocities(int level) const {
   impl_->level(level);
-  const LedCall led(*impl_, Call::velocities);
-  return impl_->of_vertices(to_host<B>(impl_->hierarchy().exec(), velocity(level)));
+  const LedCall led(*impl_, Call::velocities, level);
+  return impl_->of_vertices(to_host<B>(impl_->hierarchy().exec(), velocity(level)), level);
 }
 template <class B>
 std::vector<Point> Simulation<B>::surface_positions() const {
@@ -284,7 +284,7 @@ void add_tensors(const std::vector<double>& rows, std::size_t numbers, ElementFi
 template <class B>
 ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
   const Level<B>& of = impl_->level(level);
-  const LedCall led(*impl_, Call::element_fields, tensors ? 1 : 0);
+  const LedCall led(*impl_, Call::element_fields, level, tensors ? 1 : 0);
   const bool nodal =
       impl_->built.reports[static_cast<std::size_t>(level)].element == name_of(Element::nodal);
   const int rows = nodal ? of.model.vertices : of.model.tets;
@@ -310,7 +310,7 @@ ElementFields Simulation<B>::element_fields(int level, bool tensors) const {
     if (nodal)
       of_all = {of_all.begin() + part.first_owned * components,
                 of_all.begin() + part.last_owned * components};
-    of_all = impl_->given(of_all, components, impl_->joined_tets);
+    of_all = impl_->given(of_all, components, impl_->joined_tets[static_cast<std::size_t>(level)]);
   };
   give(all.von_mises, 1), give(all.J, 1);
   if (tensors) give(all.stress, 6), give(all.pressure, 1), give(all.principal_stretches, 3);
@@ -324,7 +324,8 @@ void name_snapshot(Snapshot& kept, Archive<B>& archive) {
   for (double* value : {&kept.time, &kept.put_in, &kept.drift[0], &kept.drift[1], &kept.drift[2]})
     archive.number(*value);
   archive.number(kept.steps);
-  for (const auto& state : kept.levels) archive.state("a kept level", state);
+  for (std::size_t i = 0; i < kept.levels.size(); ++i)
+    archive.set_level(i), archive.state("a kept level", kept.levels[i]);
   kept.history.name_fields(archive);
 }
 
@@ -391,8 +392,10 @@ void name_all(Impl& s, Archive<B>& archive) {
   for (long* value : {&s.steps, &s.rejected, &s.unsolved}) archive.number(*value);
   s.control.name_fields(archive);
   archive.number(s.budget_opens);
-  for (std::size_t i = 0; i < s.kept.levels.size(); ++i)
+  for (std::size_t i = 0; i < s.kept.levels.size(); ++i) {
+    archive.set_level(i);
     s.hierarchy().levels[i].name_fields(archive, "level " + std::to_string(i) + "'s ");
+  }
   s.built.stepper->name_fields(archive);
   archive.field("the obstacles' wrenches", s.wrench);
   archive.field("the obstacles' memory", s.memory);

@@ -16,8 +16,9 @@ std::string needs_one_process(const std::string& what, const std::string& expect
 }
 
 std::string refused_methods(const IntegrationOptions& o) {
-  if (o.cycle != Single::name)
-    return needs_one_process("integration.cycle is " + o.cycle, "single");
+  if (o.cycle != Single::name && !stepper_needs(o.cycle).coarse_states)
+    return needs_one_process("integration.cycle is " + o.cycle,
+                             "single, rs, rv, rsv, rsv_sv or fas");
   for (const std::string& name : o.integrator)
     if (!is_explicit(name))
       return needs_one_process("integration.integrator is " + name, "symplectic_euler");

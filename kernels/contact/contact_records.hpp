@@ -192,13 +192,12 @@ struct ContactRecords {
   /// @{ shared by all levels
   /// Laws of obstacles and bodies, of grasped points, of pairs of bodies, of attachments
   Laws law;
-  Indices<B> body;  ///< [points] body of each point; empty: there is one
-  /// [points] 1 where this rank owns the point; 0: a copy, which sums leave out; empty: it owns all
-  Indices<B> counted;
   SurfaceMesh<B> mesh;
   Grasps<B> grasps;
   Attachments<B> attached;
   /// @}
+  Indices<B> body;      ///< [points] body of each point; empty: there is one
+  Indices<B> counted;   ///< [points] see EmbeddedSurface
   DeviceList<B> list;   ///< slots in use
   Doubles<B> touching;  ///< [1] number of records that have a force, or may have one in this step
   Indices<B> near;      ///< [slots] 1: in use

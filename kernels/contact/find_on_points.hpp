@@ -49,7 +49,7 @@ struct FindOnPoints {
     Gap<Real> gap = records.long_steps
                         ? shape(local)
                         : gap_along(shape, local, at.to_local(records.span * speed), records.reach);
-    watch.look(p, gap.distance);
+    watch.look(surface.number.extent(0) > 0 ? surface.number(p) : p, gap.distance);
     if (gap.distance < between) records.close(0) = 1;
     if (!(gap.distance < far)) {
       records.depth(r) = -gap.distance;

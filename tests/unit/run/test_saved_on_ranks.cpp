@@ -35,7 +35,18 @@ const std::map<std::string, std::function<void(Problem&)>>& carried() {
        }},
       {"central_difference", [](Problem& p) { p.integration.integrator = {"central_difference"}; }},
       {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
-      {"no contact", [](Problem& p) { p.contact = {}, p.body.surface.reset(); }}};
+      {"no contact", [](Problem& p) { p.contact = {}, p.body.surface.reset(); }},
+      {"levels with contact",
+       [](Problem& p) {
+         p.body.levels = {lump(), lump(8)};
+         p.integration.cycle = "rsv";
+       }},
+      {"shared levels, relaxation", [](Problem& p) {
+         p.body.levels = {lump(), lump(8)};
+         p.integration.cycle = "rv";
+         p.contact = {}, p.body.surface.reset();
+         p.body.material.prony = {{0.3, 0.01}};
+       }}};
   return all;
 }
 

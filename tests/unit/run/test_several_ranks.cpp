@@ -167,6 +167,76 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOption) {
     }
 }
 
+/// A lump in three resolutions, which are not nested: 5, 2 and 1 blocks of vertices. Without
+/// contact ranks share all levels, with contact the finest one.
+Problem lump_of_three_levels(const std::string& cycle, const std::string& element, bool contact) {
+  Problem p = pressed_organ(lump(), element);
+  p.body.levels = {lump(), lump(8), lump(5)};
+  p.integration.cycle = cycle;
+  if (!contact) p.contact = {}, p.body.surface.reset();
+  return p;
+}
+
+TYPED_TEST(SeveralRanks, HaveTheBitsOfOneOnSeveralLevels) {
+  for (const char* cycle : {"rs", "rv", "rsv", "rsv_sv", "fas"})
+    for (const char* element : {"linear", "nodal"})
+      for (const bool contact : {false, true}) {
+        SCOPED_TRACE(std::string(cycle) + ", " + element + (contact ? ", contact" : ""));
+        const Problem problem = lump_of_three_levels(cycle, element, contact);
+        const Outcome one = on_one_process<TypeParam>(problem);
+        EXPECT_EQ(one.contact_energy > 0, contact);
+        for (const int count : {1, 2, 3, 7}) expect_on_ranks<TypeParam>(one, problem, count);
+      }
+}
+
+TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOptionOnSeveralLevels) {
+  const std::map<std::string, std::function<void(Problem&)>> options = {
+      {"relaxation",
+       [](Problem& p) {
+         p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
+       }},
+      {"smoothed pressures", [](Problem& p) { p.body.material.poisson_ratio = 0.495; }},
+      {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
+      {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
+      {"extrapolation", [](Problem& p) { p.integration.outside = "extrapolate"; }},
+      {"an element for each level", [](Problem& p) {
+         p.body.element = {"nodal", "linear", "nodal"};
+       }}};
+  for (const auto& [name, change] : options) {
+    SCOPED_TRACE(name);
+    Problem problem = lump_of_three_levels("rsv", "linear", false);
+    change(problem);
+    expect_on_ranks<TypeParam>(on_one_process<TypeParam>(problem), problem, 4);
+  }
+}
+
+// Rank 0 has all of each level, whether it is shared or not.
+TYPED_TEST(SeveralRanks, GiveEachLevel) {
+  using B = TypeParam;
+  for (const char* element : {"linear", "nodal"})
+    for (const bool contact : {false, true}) {
+      const Problem problem = lump_of_three_levels("rsv", element, contact);
+      Simulation<B> one(problem);
+      take_steps(one);
+      BatonRanks(3).run([&](Ranks& ranks) {
+        Simulation<B> simulation(problem, typename B::Exec(), ranks);
+        if (ranks.own() > 0) {
+          EXPECT_EQ(simulation.follow(), 0);
+          return;
+        }
+        simulation.lead();
+        take_steps(simulation);
+        for (int level = 0; level < 3; ++level) {
+          EXPECT_TRUE(equal_bits(simulation.positions(level), one.positions(level)));
+          EXPECT_TRUE(equal_bits(simulation.velocities(level), one.velocities(level)));
+          EXPECT_TRUE(equal_bits(simulation.element_fields(level, true).stress,
+                                 one.element_fields(level, true).stress));
+        }
+        simulation.dismiss(0);
+      });
+    }
+}
+
 // A vertex that two ranks update has the same values on both, after each macro step.
 TYPED_TEST(SeveralRanks, HaveEqualCopies) {
   using B = TypeParam;
@@ -270,9 +340,10 @@ TEST(SeveralRanksRefusals, NameTheOptionAndTheAlternative) {
   EXPECT_EQ(refused([](Problem& p) { p.integration.integrator = {"implicit_euler"}; }),
             "integration.integrator is implicit_euler, which runs on one process alone; expected "
             "symplectic_euler, or one process");
-  EXPECT_EQ(refused([](Problem& p) { p.integration.cycle = "him"; }),
-            "integration.cycle is him, which runs on one process alone; expected single, or one "
-            "process");
+  EXPECT_EQ(
+      refused([](Problem& p) { p.integration.cycle = "him"; }),
+      "integration.cycle is him, which runs on one process alone; expected single, rs, rv, rsv, "
+      "rsv_sv or fas, or one process");
   EXPECT_EQ(refused([](Problem& p) { p.contact.obstacles.front().grasp.emplace(); }),
             "contact.obstacles.0.grasp holds points, which runs on one process alone; expected "
             "none, or one process");
