@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   plica::bench::register_levels();
   plica::bench::register_scale();
   plica::bench::register_growth();
+  plica::bench::register_ranks();
 #endif
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

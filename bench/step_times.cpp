@@ -23,6 +23,7 @@ struct StepTimes {
 template <class B>
 StepTimes timed_steps(Simulation<B>& simulation, double duration, int threads, double limit) {
   StepTimes times;
+  simulation.share_cores();
   const Kokkos::Timer since_start;
   while (simulation.time() < duration - 0.5 * simulation.macro_step()) {
     if (since_start.seconds() > limit) {

@@ -10,6 +10,7 @@ void register_kernels();  ///< force/, tangent/<material>/<precision>/<tets>
 void register_steps();
 void register_levels();   ///< transfer/, contact/, cycle/, set_up/
 void register_growth();   ///< growth/<element>/<tets>: an explicit step, in double
+void register_ranks();    ///< ranks/<element>/<tets>/<ranks>: plans of large bodies
 void register_scale();    ///< scale/<steps>/<precision>/<tets>: macro steps, larger on a device
 void register_layouts();  ///< layout/<layout>/<material>/<precision>/<tets>: in plica_bench_layouts
 

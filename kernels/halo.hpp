@@ -195,7 +195,7 @@ template <class B>
 State<B> sources(const typename B::Exec& exec,
                  const std::shared_ptr<const GatheredVertices<B>>& gathered, const State<B>& state,
                  int which = 0) {
-  if (!gathered || state.u.extent(0) == 0) return state;
+  if (!gathered) return state;
   State<B> of;
   of.u = (*gathered)(exec, state.u, 2 * which);
   of.v = (*gathered)(exec, state.v, 2 * which + 1);

@@ -226,15 +226,10 @@ LevelPart part_of_level(const TetMesh& mesh, Element element,
                                     : nodal_part(mesh, ranges, own);
 }
 
-namespace {
-
-/// Returns the tetrahedra of the patches of any backend.
 std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
   using P = Patches<Backend<double, Kokkos::DefaultHostExecutionSpace>>;
   return element_runs(mesh, P::capacity, P::vertex_capacity);
 }
-
-}  // namespace
 
 LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block) {
   const auto runs = runs_of_patches(mesh);
@@ -404,8 +399,8 @@ void count_nodal(const TetMesh& mesh, const RankRanges& ranges, std::vector<Rank
 
 }  // namespace
 
-std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks, int block) {
-  const auto runs = runs_of_patches(mesh);
+std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element,
+                                 const std::vector<std::vector<int>>& runs, int ranks, int block) {
   const RankRanges ranges = rank_ranges(mesh, runs, ranks, block);
   std::vector<RankPlan> plans(index_of(ranks));
   for (int r = 0; r < ranks; ++r) {

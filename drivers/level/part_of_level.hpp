@@ -91,7 +91,12 @@ struct RankPlan {
   int neighbours = 0;                   ///< ranks that it receives rows from
 };
 
+/// Returns the runs of tetrahedra that are patches on any backend.
+std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh);
 /// Returns for each rank what it would have and exchange.
-std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element, int ranks, int block = 512);
+/// @param runs  runs_of_patches() of the mesh
+std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element,
+                                 const std::vector<std::vector<int>>& runs, int ranks,
+                                 int block = 512);
 
 }  // namespace plica

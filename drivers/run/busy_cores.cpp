@@ -55,13 +55,14 @@ void ThreadChoice::try_out(std::size_t rung, double per_step) {
 void ThreadChoice::look(double now, double per_step, double waited) {
   if (came_from_) {
     const bool stays = per_step < faster * before_;
-    if (!stays) at_ = *came_from_;
+    if (!stays) at_ = *came_from_, seeks_ = false;
     pause_ = stays ? first_pause : std::min(2 * pause_, longest_pause);
-    next_trial_ = now + (stays && waited > notable ? 0 : pause_);
+    next_trial_ = now + (stays && (seeks_ || waited > notable) ? 0 : pause_);
     came_from_.reset();
   } else if (now >= next_trial_) {
-    if (waited > notable && at_ + 1 < rungs_.size())
-      try_out(at_ + 1, per_step);
+    const std::size_t fewer = seeks_ && at_ == 0 && rungs_.size() > 2 ? 2 : at_ + 1;
+    if ((seeks_ || waited > notable) && fewer < rungs_.size())
+      try_out(fewer, per_step);
     else if (at_ > 0)
       try_out(at_ - 1, per_step);
   }
@@ -76,7 +77,8 @@ template <class B>
 auto SharedCores<B>::after_step(double seconds) -> std::optional<Exec> {
   ++steps_, seconds_ += seconds;
   const bool fails = choice_.tries() && seconds_ > hopeless * steps_ * per_step_;
-  if (seconds_ < (fails ? enough_to_fail : choice_.tries() ? enough_to_try : enough)) return {};
+  const bool is_short = choice_.tries() || choice_.begins();
+  if (seconds_ < (fails ? enough_to_fail : is_short ? enough_to_try : enough)) return {};
   const int before = choice_.threads();
   per_step_ = seconds_ / steps_;
   choice_.look(clock_.seconds(), per_step_, wait_.share(before).value_or(0));

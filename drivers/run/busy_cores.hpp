@@ -14,6 +14,9 @@
 //
 // A try that is not faster goes back, and the next one comes later.
 //
+// Threads that wake slowly make a small body's steps longer than one thread takes. So a run begins
+// with tries of half as many threads, as long as these are faster.
+//
 // Results have the same bits with any number of threads.
 #pragma once
 #include <Kokkos_Timer.hpp>
@@ -43,6 +46,7 @@ class ThreadChoice {
   explicit ThreadChoice(int all);
   int threads() const { return rungs_[at_]; }
   bool tries() const { return came_from_.has_value(); }  ///< whether this number is on trial
+  bool begins() const { return seeks_; }  ///< whether the tries at a run's beginning go on
 
   /// Judges some steps, and may choose another number of threads. Takes the present time [s], the
   /// time per step [s], and the part of it for which threads waited for cores.
@@ -51,6 +55,7 @@ class ThreadChoice {
  private:
   std::vector<int> rungs_;
   std::size_t at_ = 0;
+  bool seeks_ = true;  ///< whether fewer threads are tried although none has waited for a core
   std::optional<std::size_t> came_from_;         ///< rung that a failed trial goes back to
   double before_ = 0;                            ///< time per step on that rung [s]
   double next_trial_ = 0, pause_ = first_pause;  ///< time of the next trial; pause before it [s]

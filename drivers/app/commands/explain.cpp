@@ -34,7 +34,8 @@ Plan plan_of(const Scene& scene, const Simulation<B>& simulation, const Machine&
 std::vector<RankPlan> planned_ranks(const Scene& scene, int count) {
   if (const std::string why = refused_by_ranks(scene.problem); !why.empty())
     throw located(InputError(why), scene.source);
-  return plan_ranks(scene.problem.body.levels.front(), element_of(scene.problem.body, 0), count);
+  const TetMesh& mesh = scene.problem.body.levels.front();
+  return plan_ranks(mesh, element_of(scene.problem.body, 0), runs_of_patches(mesh), count);
 }
 
 void check_its_study(const Scene& scene) {

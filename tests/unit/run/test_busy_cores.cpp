@@ -66,8 +66,16 @@ std::vector<int> taken(int all, int looks, double waited, const Pace& pace) {
 }  // namespace
 
 TEST(ThreadChoice, StaysWithAllThreadsThatHaveCores) {
-  for (const int threads : taken(8, 100, 0.01, [](int n) { return 1.0 / n; }))
-    EXPECT_EQ(threads, 8);
+  const std::vector<int> threads = taken(8, 100, 0.01, [](int n) { return 1.0 / n; });
+  EXPECT_EQ(std::count(threads.begin(), threads.end(), 8), 99);  // and one trial
+}
+
+TEST(ThreadChoice, TakesAsManyThreadsAsASmallBodyGainsBy) {
+  for (const int best : {1, 2, 4}) {
+    const std::vector<int> threads =
+        taken(16, 300, 0, [&](int n) { return n > best ? 2.0 * n : 1.0 / n; });
+    EXPECT_GT(std::count(threads.begin() + 10, threads.end(), best), 0.9 * 290) << best;
+  }
 }
 
 TEST(ThreadChoice, OneCoreThatIsTakenHoldsUpTwoThreads) {

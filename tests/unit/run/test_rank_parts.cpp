@@ -86,7 +86,8 @@ TEST(RankParts, SendWhatOthersWaitFor) {
       for (const Element element : {Element::linear, Element::nodal}) {
         const Parts parts(mesh, element, ranks);
         const auto halo = element == Element::linear ? &LevelPart::shares : &LevelPart::vertices;
-        const std::vector<RankPlan> plans = plan_ranks(mesh, element, ranks, block);
+        const std::vector<RankPlan> plans =
+            plan_ranks(mesh, element, runs_of_patches(mesh), ranks, block);
         for (int a = 0; a < ranks; ++a) {
           const HaloRows& own = parts.all[index_of(a)].*halo;
           EXPECT_EQ(std::ssize(own.sent), plans[index_of(a)].sent);
@@ -129,7 +130,8 @@ TEST(RankParts, AddAllSharesInOneOrder) {
 TEST(RankParts, HaveAboutAsMuchWork) {
   const TetMesh mesh = ventricle(true);
   for (const int ranks : {2, 4, 8}) {
-    const std::vector<RankPlan> plans = plan_ranks(mesh, Element::linear, ranks, block);
+    const std::vector<RankPlan> plans =
+        plan_ranks(mesh, Element::linear, runs_of_patches(mesh), ranks, block);
     const auto most = std::ranges::max_element(plans, {}, &RankPlan::tets)->tets;
     EXPECT_LT(static_cast<double>(most * ranks), 1.1 * static_cast<double>(mesh.tets.size()));
   }

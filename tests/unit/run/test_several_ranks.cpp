@@ -171,7 +171,7 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOption) {
 /// contact ranks share all levels, with contact the finest one.
 Problem lump_of_three_levels(const std::string& cycle, const std::string& element, bool contact) {
   Problem p = pressed_organ(lump(), element);
-  p.body.levels = {lump(), lump(8), lump(5)};
+  p.body.levels = {lump(), lump(8), lump(4)};
   p.integration.cycle = cycle;
   if (!contact) p.contact = {}, p.body.surface.reset();
   return p;
@@ -184,7 +184,7 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneOnSeveralLevels) {
         SCOPED_TRACE(std::string(cycle) + ", " + element + (contact ? ", contact" : ""));
         const Problem problem = lump_of_three_levels(cycle, element, contact);
         const Outcome one = on_one_process<TypeParam>(problem);
-        EXPECT_EQ(one.contact_energy > 0, contact);
+        EXPECT_EQ(one.force.norm() > 0, contact);
         for (const int count : {1, 2, 3, 7}) expect_on_ranks<TypeParam>(one, problem, count);
       }
 }
@@ -200,7 +200,8 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOptionOnSeveralLevels) {
       {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
       {"extrapolation", [](Problem& p) { p.integration.outside = "extrapolate"; }},
       {"an element for each level", [](Problem& p) {
-         p.body.element = {"nodal", "linear", "nodal"};
+         p.body.element = {"nodal", "nodal", "linear"};
+         p.integration.cycle = "rs";
        }}};
   for (const auto& [name, change] : options) {
     SCOPED_TRACE(name);
