@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -31,8 +31,8 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
   Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
-  RankRanges ranges;       ///< what each of them owns
-  int number = 0;          ///< of the level, for the names of messages
+  RankRanges ranges;       ///< vertices and runs of each of them
+  int number = 0;          ///< number of the level, which messages name
   RankPart part;           ///< numbers of its vertices and tetrahedra
   TetMesh mesh;            ///< vertices and tetrahedra of the part, with local numbers
   /// own runs, of local tetrahedra; of linear elements
@@ -64,7 +64,7 @@ std::vector<HeldSet> held_by_part(const std::vector<HeldSet>& whole, const RankP
 /// Vertices of a shared level that a rank reads for its part of the level beside it.
 struct ReadVertices {
   std::vector<int> vertex;  ///< numbers in the whole mesh, ascending
-  HaloRows rows;            ///< what ranks send to each other; `sent` are local rows of the level
+  HaloRows rows;            ///< rows that ranks send to each other; `sent`: local rows of the level
   std::vector<int> own;     ///< local rows of those that the rank owns itself
 
   /// Returns the place of a vertex of the whole mesh in `vertex`, which has it.

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/core/row_ranges.hpp>
+#include <plica/core/to_device.hpp>
+#include <plica/drivers/contact/build_surface.hpp>
 #include <plica/drivers/level/surface_of_part.hpp>
 
 namespace plica {
@@ -30,5 +32,19 @@ SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
   }
   return made;
 }
+
+template <class B>
+EmbeddedSurface<B> build_surface_part(const SurfacePart& points) {
+  EmbeddedSurface<B> own = build_surface<B>(points.surface, points.embedding);
+  own.number = to_device<Indices<B>>("surface.number", points.points);
+  if (!points.counted.empty())
+    own.counted = to_device<Indices<B>>("surface.counted", points.counted);
+  return own;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                    \
+  template EmbeddedSurface<Backend<Real, Exec>> build_surface_part<Backend<Real, Exec>>( \
+      const SurfacePart&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/rank_part.hpp>
+#include <plica/core/transfer.hpp>
 #include <plica/drivers/elastic/elements.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <vector>
@@ -21,5 +22,9 @@ struct SurfacePart {
 /// are at no vertex.
 SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
                             const RankPart& part, Element element, int own);
+
+/// Returns the interpolation of these points from the part's vertices, see build_surface().
+template <class B>
+EmbeddedSurface<B> build_surface_part(const SurfacePart& points);
 
 }  // namespace plica

@@ -25,10 +25,10 @@
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/run/deform_start.hpp>
+#include <plica/drivers/run/rank_levels.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/time/critical_step.hpp>
 #include <plica/drivers/time/integrator_parts.hpp>
-#include <plica/kernels/halo.hpp>
 #include <plica/kernels/loads/boundary_conditions.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
@@ -65,7 +65,7 @@ class HierarchyBuilder {
  public:
   HierarchyBuilder(const Problem& problem, const Exec& exec, Ranks* ranks)
       : problem_(problem),
-        ranks_(ranks),
+        own_(ranks, !has_contact(problem) && !problem.surface_forces),
         needs_(stepper_needs(problem.integration.cycle)),
         meshes_(needs_.coarse_meshes ? problem.body.levels.size() : 1),
         levels_(integrated_levels(problem.integration.cycle, problem.body.levels.size())) {
@@ -110,7 +110,9 @@ class HierarchyBuilder {
   }
 
   const Problem& problem_;
-  Ranks* ranks_;  // null: one process
+  // the levels as this rank has them. Contact reads surface points in all levels, so that each rank
+  // has coarse levels with contact as a whole: they are small
+  RankLevels<B> own_;
   BuiltHierarchy<B> built_;
   StepperNeeds needs_;
   std::size_t meshes_, levels_;  // number of meshes that are used; of levels that are integrated
@@ -118,14 +120,8 @@ class HierarchyBuilder {
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;                  // per level
   std::vector<std::vector<std::unique_ptr<ForceTerm<B>>>> terms_;  // per level
-  /// Part of a level that several ranks share, and its constants.
-  struct Shared {
-    LevelPart level;
-    LevelConstants constants;
-  };
-  std::vector<std::optional<Shared>> shared_;  // per level; none: this process has all of it
-  SurfacePart part_surface_;                   // this rank's points of level 0
-  std::vector<std::unique_ptr<BodyLocator>> locators_;  // per level, see locator()
+  SurfacePart part_surface_;                                       // this rank's points of level 0
+  std::vector<std::unique_ptr<BodyLocator>> locators_;             // per level, see locator()
   // [i]: embedding of level i's vertices in level i-1 (down), and the reverse (up); [0] empty
   std::vector<Embedding> down_, up_;
   std::vector<int> massless_ = {0};  // [i]: number of level i's vertices that inherit no mass
@@ -152,7 +148,7 @@ class HierarchyBuilder {
       if (i < levels_) {
         loads_.push_back(assemble_loads(body, mesh, constants_[i], level,
                                         i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
-        terms_.push_back(is_shared(i)
+        terms_.push_back(own_.shares(i)
                              ? std::vector<std::unique_ptr<ForceTerm<B>>>()
                              : make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
         if (seeks_rest(problem_.integration) && !problem_.gravity.isZero(0))
@@ -244,45 +240,28 @@ class HierarchyBuilder {
     return by_products ? BesideNodal::matrix_and_rows : BesideNodal::matrix;
   }
 
-  /// Returns whether ranks share level i. Contact reads surface points in all levels, so that each
-  /// rank has coarse levels with contact as a whole. They are small.
-  bool is_shared(std::size_t i) const {
-    return ranks_ && (i == 0 || !(has_contact(problem_) || problem_.surface_forces));
-  }
-  /// Returns this rank's part of a level; null: it has all of it.
-  const LevelPart* part(std::size_t i) const { return shared_[i] ? &shared_[i]->level : nullptr; }
-  /// Returns the mesh and the constants that level i is built of.
-  const TetMesh& own_mesh(std::size_t i) const {
-    return shared_[i] ? shared_[i]->level.mesh : built_.meshes[i];
-  }
-  const LevelConstants& own_constants(std::size_t i) const {
-    return shared_[i] ? shared_[i]->constants : constants_[i];
-  }
-
-  /// Finds this rank's part of a level, and what acts on it.
+  /// Finds what acts on this rank's part of a level.
   void take_part(std::size_t i) {
-    Shared& own = shared_[i].emplace();
-    own.level = part_of_level(built_.meshes[i], constants_[i].element, *ranks_, vertex_block<B>);
-    own.level.number = static_cast<int>(i);
-    own.constants = constants_of_part(constants_[i], own.level.part);
-    terms_[i] = make_force_terms<B>(problem_.body, own.level.mesh, own.constants,
-                                    loads_of_part(loads_[i], own.level.part), static_cast<int>(i));
+    const RankPart& part = own_.part(i)->part;
+    terms_[i] = make_force_terms<B>(problem_.body, own_.mesh(i), own_.constants(i),
+                                    loads_of_part(loads_[i], part), static_cast<int>(i));
     if (i > 0) return;
-    built_.held = held_by_part(built_.held, own.level.part);
+    built_.held = held_by_part(built_.held, part);
     if (!problem_.body.surface) return;
-    part_surface_ = surface_of_part(surface_, built_.meshes[i], own.level.part,
-                                    constants_[i].element, ranks_->own());
+    part_surface_ = surface_of_part(surface_, built_.meshes[i], part, constants_[i].element,
+                                    own_.ranks()->own());
     built_.surface_point = part_surface_.points, built_.owned_points = part_surface_.owned;
   }
 
   void add_level(std::size_t i) {
-    shared_.emplace_back();
-    if (is_shared(i)) take_part(i);
+    own_.add(built_.meshes[i], constants_[i]);
+    const LevelPart* const part = own_.part(i);
+    if (part) take_part(i);
     LevelData<B> level =
-        build_level<B>(problem_.body, own_mesh(i), own_constants(i), beside_nodal(i), part(i));
+        build_level<B>(problem_.body, own_.mesh(i), own_.constants(i), beside_nodal(i), part);
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<double> edges = local_edge_lengths(built_.meshes[i]);
-      if (part(i)) edges = part(i)->part.local(edges);
+      if (part) edges = part->part.local(edges);
       std::vector<typename B::Real> limit;
       for (double edge : edges)
         limit.push_back(
@@ -292,19 +271,11 @@ class HierarchyBuilder {
     // the finest level has the surface for output; the others have it only where something acts on
     // it
     if (problem_.body.surface && (i == 0 || has_contact(problem_) || problem_.surface_forces))
-      level.surface = part(i) ? surface_of_rank() : build_surface<B>(surface_, embed_surface(i));
+      level.surface = part ? build_surface_part<B>(part_surface_)
+                           : build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock,
                                           static_cast<int>(i));
     built_.hierarchy->levels.back().terms = std::move(terms_[i]);
-  }
-
-  /// Returns this rank's points of the surface in level 0.
-  EmbeddedSurface<B> surface_of_rank() const {
-    EmbeddedSurface<B> own = build_surface<B>(part_surface_.surface, part_surface_.embedding);
-    own.number = to_device<Indices<B>>("surface.number", part_surface_.points);
-    if (!part_surface_.counted.empty())
-      own.counted = to_device<Indices<B>>("surface.counted", part_surface_.counted);
-    return own;
   }
 
   /// Embeds the surface in level i. Points outside continue the tetrahedron next to them, so that
@@ -376,50 +347,16 @@ class HierarchyBuilder {
                        std::to_string(i - 1) + " and " + std::to_string(up.misses) +
                        " the other way: they would move in their own level's share of the step "
                        "only; use clamp or extrapolate");
-    const LevelPart *finer = part(i - 1), *own = part(i);
-    const std::string numbers = text(i - 1, " for level ", i);
     if (needs_.inherited_masses) {
-      std::vector<RestrictionRow> rows = restriction_rows(up, constants_[i - 1].mass, down);
-      if (own) rows = own->part.local(rows);
-      if (finer) {
-        std::vector<int> read;
-        for (const RestrictionRow& row : rows)
-          read.insert(read.end(), row.source.begin(), row.source.end());
-        const ReadVertices gathered = read_vertices(*finer, std::move(read));
-        for (RestrictionRow& row : rows)
-          for (int& v : row.source) v = gathered.place(v);
-        level.of_finer = gather("vertices of level " + numbers, gathered);
-      }
-      level.adjoint = build_restriction<B>(rows);
+      level.adjoint = own_.restriction(restriction_rows(up, constants_[i - 1].mass, down), i - 1, i,
+                                       level.of_finer);
       const Scalars<B>& inverse = built_.hierarchy->levels[i - 1].model.inverse_mass;
       level.finer_inverse_mass =
           level.of_finer ? (*level.of_finer)(built_.hierarchy->exec(), inverse) : inverse;
     } else {
-      level.from_finer =
-          build_transfer<B>("restriction", read_by_part(down, own, finer, numbers, level.of_finer),
-                            own_constants(i).constrained);
+      level.from_finer = own_.interpolation("restriction", down, i - 1, i, level.of_finer);
     }
-    level.to_finer = build_transfer<B>(
-        "interpolation",
-        read_by_part(up, finer, own, text(i, " for level ", i - 1), level.for_finer),
-        own_constants(i - 1).constrained);
-  }
-
-  std::shared_ptr<const GatheredVertices<B>> gather(const std::string& what,
-                                                    const ReadVertices& read) const {
-    return std::make_shared<const GatheredVertices<B>>(*ranks_, what, read.rows, read.own);
-  }
-
-  /// Returns the rows of an embedding for this rank's part of a level. Gathers what they read of
-  /// the level beside it, where ranks share that.
-  Embedding read_by_part(const Embedding& whole, const LevelPart* own, const LevelPart* beside,
-                         const std::string& numbers,
-                         std::shared_ptr<const GatheredVertices<B>>& gathered) const {
-    Embedding rows = embedding_of_part(whole, own ? &own->part : nullptr);
-    if (!beside) return rows;
-    const ReadVertices read = read_vertices(*beside, read_by(rows));
-    gathered = gather("vertices of level " + numbers, read);
-    return with_places(std::move(rows), read);
+    level.to_finer = own_.interpolation("interpolation", up, i, i - 1, level.for_finer);
   }
 
   void add_contact() {
@@ -440,7 +377,7 @@ class HierarchyBuilder {
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
     contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p));
-    if (ranks_ && contact_->whole() > 0)
+    if (own_.ranks() && contact_->whole() > 0)
       throw InputError("contact.whole_surface is " + options.whole_surface +
                        ", and an obstacle is so small that it touches between points, which runs "
                        "on one process alone; expected never, or one process");
@@ -507,7 +444,7 @@ class HierarchyBuilder {
     level.set_forces(elasticity_[i], gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))
       level.viscosity = std::make_unique<Viscosity<B>>(
-          constants_[i].shape, problem_.integration.relaxation, own_mesh(i), level);
+          constants_[i].shape, problem_.integration.relaxation, own_.mesh(i), level);
   }
 
   /// Makes the stepper, and lets it plan the steps of the levels.
