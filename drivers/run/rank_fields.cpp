@@ -41,10 +41,11 @@ RankFields::RankFields(Ranks& ranks, RankItems own) : ranks_(ranks), own_(std::m
   points_of_ = each_ranks(ranks, points);
   for (const std::vector<int>& one : points_of_) points_ += one.size();
   const auto sizes = each_ranks(ranks, std::vector{static_cast<std::uint64_t>(own_.part->owned()),
-                                                   static_cast<std::uint64_t>(own_.element_bytes)});
+                                                   static_cast<std::uint64_t>(own_.element_bytes),
+                                                   static_cast<std::uint64_t>(own_.slots)});
   for (std::size_t r = 0; r < sizes.size(); ++r) {
-    if (r == index_of(ranks.own())) elements_before_ = elements_;
-    vertices_ += sizes[r][0], elements_ += sizes[r][1];
+    if (r == index_of(ranks.own())) elements_before_ = elements_, slots_before_ = slots_;
+    vertices_ += sizes[r][0], elements_ += sizes[r][1], slots_ += sizes[r][2];
   }
 }
 
@@ -55,6 +56,8 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
       return vertices_ * rows.bytes;
     case RowItems::elements:
       return elements_;
+    case RowItems::slots:
+      return slots_ * rows.bytes;
     default:
       return index_of(own_.obstacles) * points_ * rows.bytes;
   }
@@ -62,7 +65,7 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
 
 /// Returns the rows that the rank owns, of those that it has.
 RankFields::Field RankFields::owned(const RowsOfField& rows, const Field& local) const {
-  if (rows.of == RowItems::elements || local.empty()) return local;
+  if (rows.of == RowItems::elements || rows.of == RowItems::slots || local.empty()) return local;
   const auto row = [&](std::size_t i) {
     return local.begin() + static_cast<std::ptrdiff_t>(i * rows.bytes);
   };
@@ -108,6 +111,10 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
 RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char* whole) const {
   if (rows.of == RowItems::elements)
     return {whole + elements_before_, whole + elements_before_ + own_.element_bytes};
+  if (rows.of == RowItems::slots) {
+    const unsigned char* const first = whole + slots_before_ * rows.bytes;
+    return {first, first + own_.slots * rows.bytes};
+  }
   Field all;
   const auto add = [&](std::size_t row) {
     all.insert(all.end(), whole + row * rows.bytes, whole + (row + 1) * rows.bytes);

@@ -133,7 +133,8 @@ std::unique_ptr<RankFields> Simulation<B>::Impl::shared_fields() {
   const std::size_t obstacles = level.contact() ? problem.contact.obstacles.size() : 0;
   return std::make_unique<RankFields>(
       *ranks, RankItems{&level.ranks->part, built.surface_point, built.owned_points,
-                        static_cast<int>(obstacles), fields::bytes_of(level.stress.memory)});
+                        static_cast<int>(obstacles), fields::bytes_of(level.stress.memory),
+                        static_cast<std::size_t>(level.model.rows.slots())});
 }
 
 /// Returns the bytes that rank 0 has.
