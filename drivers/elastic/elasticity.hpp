@@ -31,10 +31,10 @@ class Elasticity {
   /// `projected`: see tangent(). Smoothed pressures of nodal elements are left out.
   virtual void diagonal(const Exec&, const LevelData<B>&, const Vectors<B>& u, int direction,
                         double damping_scale, bool projected = false) const = 0;
-  /// Stores the projected tangents of the state whose gradients level.nodal keeps, with linear
-  /// elements of the level's state. They go to level.nodal.tangent, from where tangent() and
+  /// Stores the projected tangents of a displacement; with nodal elements, of the one whose
+  /// gradients level.nodal keeps. They go to level.nodal.tangent, from where tangent() and
   /// diagonal() of that state read them if `projected`.
-  virtual void keep_tangents(const Exec&, const LevelData<B>&) const {}
+  virtual void keep_tangents(const Exec&, const LevelData<B>&, const Vectors<B>& u) const = 0;
   /// Assembles A = (1 + b c) M + a K(u) + b D(u) in blocks, of linear elements.
   /// `projected`: the tangents of elements are projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u,

@@ -38,8 +38,9 @@ class LinearElasticity final : public Elasticity<B> {
     elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, damping_scale,
                                   level.partial);
   }
-  void keep_tangents(const Exec& exec, const LevelData<B>& level) const override {
-    keep_element_tangents<B, Material>(exec, level);
+  void keep_tangents(const Exec& exec, const LevelData<B>& level,
+                     const Vectors<B>& u) const override {
+    keep_element_tangents<B, Material>(exec, level, u);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
               const Vectors<B>& u, const ImplicitWeights& weights, bool projected,

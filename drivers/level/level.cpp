@@ -201,7 +201,7 @@ void Level<B>::incremental_energy(const State<B>& at) const {
 }
 
 template <class B>
-void Level<B>::keep_tangents() {
+void Level<B>::keep_tangents(const State<B>& at) {
   const NodalRows<B>& rows = this->model.rows;
   const bool nodal = rows.slices > 0;
   if (nodal && (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0)) return;
@@ -209,7 +209,7 @@ void Level<B>::keep_tangents() {
   if (this->nodal.tangent.extent(0) == 0)
     this->nodal.tangent =
         zeros<Scalars<B>>("plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(slots));
-  elasticity_->keep_tangents(exec(), *this);
+  elasticity_->keep_tangents(exec(), *this, at.u);
 }
 
 template <class B>

@@ -130,9 +130,9 @@ class Level : public LevelData<B> {
   void assemble(const State<B>& state, const ImplicitWeights& weights, bool projected,
                 const PatchPairs<B>& pairs, const Blocks9<B>& shares,
                 const BlockMatrix<B>& A) const;
-  /// Computes and stores the projected tangents of the state that was linearised last, with linear
-  /// elements those of the level's state, where elements keep them. Overwrites `partial`.
-  void keep_tangents();
+  /// Computes and stores the projected tangents of the state that was linearised last, where
+  /// elements keep them. Overwrites `partial`.
+  void keep_tangents(const State<B>& state);
   /// Computes partial = the shares of -K p at a state; see Elasticity::tangent. On one of several
   /// ranks, shares of others are received.
   void tangent(const State<B>& state, const Vectors<B>& p, double damping_scale = 0,

@@ -207,7 +207,7 @@ class StageSolver {
     }
     SolveOutcome out;
     level.timed("solve", [&] {
-      if (projected && solver_->reads_kept()) level.keep_tangents();
+      if (projected && solver_->reads_kept()) level.keep_tangents(level.state);
       solver_->prepare(level, level.state, w, projected);
       if (from_start && !projected && level.is_stiffness_alone())
         by_product = solver_->multiply(level.exec(), gap, right_side_);

@@ -17,11 +17,10 @@ KOKKOS_INLINE_FUNCTION typename B::Real* kept_place(const Scalars<B>& tangent, i
   return tangent.data() + (static_cast<std::ptrdiff_t>(pack) * symmetric_nine + k) * B::lanes;
 }
 
-/// Computes the tangents of a displacement. Nothing is added to `partial`.
+/// Computes the tangents of a displacement.
 template <class B, class Material>
 struct KeepElements {
   static constexpr int fields = 1;
-  static constexpr bool adds = true;
   Vectors<B> field[1];
   Scalars<B> constants;  ///< [patches] constants of the material
   Scalars<B> fibres;     ///< directions of each element's fibres, or empty
@@ -107,14 +106,15 @@ struct KeptElementDiagonal {
   }
 };
 
-/// Computes level.nodal.tangent of the level's state.
+/// Computes level.nodal.tangent of a displacement. Overwrites level.partial.
 template <class B, class Material>
-void keep_element_tangents(const typename B::Exec& exec, const LevelData<B>& level) {
+void keep_element_tangents(const typename B::Exec& exec, const LevelData<B>& level,
+                           const Vectors<B>& u) {
   const Patches<B>& patches = level.model.patches;
-  launch_patches<B>(exec, "plica::elastic_keep_tangents", patches,
-                    KeepElements<B, Material>{
-                        {level.state.u}, patches.constants, patches.fibres, level.nodal.tangent},
-                    level.partial);
+  launch_patches<B>(
+      exec, "plica::elastic_keep_tangents", patches,
+      KeepElements<B, Material>{{u}, patches.constants, patches.fibres, level.nodal.tangent},
+      level.partial);
 }
 
 template <class B, class Material>
