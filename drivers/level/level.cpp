@@ -203,9 +203,9 @@ void Level<B>::incremental_energy(const State<B>& at) const {
 template <class B>
 void Level<B>::keep_tangents(const State<B>& at) {
   const NodalRows<B>& rows = this->model.rows;
-  const bool nodal = rows.slices > 0;
-  if (nodal && (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0)) return;
-  const int slots = nodal ? rows.slots() : this->model.patches.packs * B::lanes;
+  const bool by_rows = rows.slices > 0;
+  if (by_rows && (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0)) return;
+  const int slots = by_rows ? rows.slots() : this->model.patches.packs * B::lanes;
   if (this->nodal.tangent.extent(0) == 0)
     this->nodal.tangent =
         zeros<Scalars<B>>("plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(slots));
