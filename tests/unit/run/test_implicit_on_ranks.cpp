@@ -144,33 +144,31 @@ TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
     Simulation<B> one(by_products(problem));
     take_steps(one, 2);
     const SavedState saved = one.save();
-    take_steps(one, 2);
+    take_steps(one, 1);
     const SavedState end = one.save();
-    for (const int count : {2, 3, 7})
+    for (const int count : {2, 7})
       BatonRanks(count).run([&](Ranks& ranks) {
         Simulation<B> first(problem, typename B::Exec(), ranks);
         take_steps(first, 2);
         const SavedState own = first.save();
         Simulation<B> second(problem, typename B::Exec(), ranks);
         second.restore(ranks.own() == 0 ? saved : SavedState{});
-        take_steps(second, 2);
+        take_steps(second, 1);
         const SavedState last = second.save();
         if (ranks.own() > 0) return;
         EXPECT_TRUE(own.bytes == saved.bytes) << count << " ranks";
         EXPECT_TRUE(last.bytes == end.bytes) << count << " ranks";
       });
   };
-  for (const char* element : {"linear", "nodal"}) {
-    for (const char* integrator : {"implicit_euler", "bdf2", "generalized_alpha"}) {
+  for (const char* integrator : {"bdf2", "generalized_alpha"})
+    for (const char* element : {"linear", "nodal"}) {
       SCOPED_TRACE(std::string(integrator) + ", " + element);
       check(implicit_organ(integrator, lump(), element));
     }
-    SCOPED_TRACE(element);
-    Problem smoothed = implicit_organ("implicit_euler", lump(), element);
-    smoothed.body.material.poisson_ratio = 0.495;
-    smoothed.body.material.prony = {{0.3, 0.01}};
-    check(smoothed);
-  }
+  Problem smoothed = implicit_organ("implicit_euler", lump(), "nodal");
+  smoothed.body.material.poisson_ratio = 0.495;
+  smoothed.body.material.prony = {{0.3, 0.01}};
+  check(smoothed);
 }
 
 // A part of a macro step that is not solved is halved on all ranks.
@@ -179,8 +177,7 @@ TYPED_TEST(ImplicitOnRanks, HalveStepsAlike) {
   for (const char* element : {"linear", "nodal"}) {
     SCOPED_TRACE(element);
     Problem problem = implicit_organ("newmark", lump(), element);
-    problem.integration.macro_step = 0.02;
-    problem.integration.implicit.newton_iterations = 2;
+    problem.integration.implicit.newton_iterations = 3;
     problem.integration.on_failure.halvings = 3;
     Simulation<B> one(by_products(problem));
     take_steps(one, implicit_steps);
