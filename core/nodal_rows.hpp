@@ -77,7 +77,8 @@ struct NodalWork {
   Scalars<B> pressure;
   /// [slots * 9] G of the state that tangents are about, see packed(); empty: not stored
   Scalars<B> gradient;
-  /// [slots * 45] projected tangents at that state, see packed(); empty: none yet
+  /// [slots * 45] projected tangents at that state, see packed(); empty: none yet. Levels of linear
+  /// elements have them, too, where there is no matrix
   Scalars<B> tangent;
 };
 

@@ -11,6 +11,7 @@ enum class RowItems {
   whole,     ///< items that each rank has all of
   vertices,  ///< vertices of a level
   elements,  ///< a rank's own elements, in whole packs; they follow those of the rank before it
+  slots,     ///< a rank's own slots of nodal elements; they follow those of the rank before it
   contacts,  ///< slots of contact: of each obstacle one for each surface point
   /// slots of contact, of which the field has the surface points' numbers; negative: none
   points_of_contacts

@@ -227,6 +227,16 @@ Ranks* ranks_of(const LevelData<B>& level) {
   return level.ranks ? level.ranks->ranks : nullptr;
 }
 
+/// Returns whether something is so on this rank or on another one that shares the level. All ranks
+/// call this.
+template <class B>
+bool on_any_rank(const LevelData<B>& level, bool own) {
+  if (!level.ranks) return own;
+  double one = own ? 1 : 0;
+  level.ranks->ranks->most({&one, 1});
+  return one > 0;
+}
+
 /// Receives the rows of `partial` that other ranks compute; of linear elements. On one process it
 /// does nothing.
 template <class B>

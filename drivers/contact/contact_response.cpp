@@ -35,7 +35,7 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact,
       maker_(std::max(records_.slots(), level.surface.touched)),
       blocks_(std::max(records_.slots(), records_.points)),
       common_(level.ranks ? BlockSums<B>(records_.slots(), ranks_of<B>(level)) : blocks_),
-      sums_of_records_(records_.slots(), ranks_of<B>(level)),
+      sums_of_records_(records_.slots(), ranks_of<B>(level), implicit ? 2 : 0),
       free_(
           zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(level.model.vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer",
@@ -294,9 +294,9 @@ ContactBalance ContactResponse<B>::linearise(const Exec& exec, const LevelData<B
                                              const State<B>& state, const ImplicitWeights& w,
                                              double ahead, const Vectors<B>& f, bool secant) {
   const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
-  sum_list<B, 2>(exec, records_.list, "plica::contact_linearise",
-                 LineariseContact<B>{at(level, state, ahead), weight, true, secant}, blocks_,
-                 sums_);
+  sum_long_terms<B, 2>(exec, records_, "plica::contact_linearise",
+                       LineariseContact<B>{at(level, state, ahead), weight, true, secant},
+                       sums_of_records_, sums_);
   scatter(exec, level, f, stage_.factor);
   return read_balance(exec);
 }
@@ -304,8 +304,8 @@ ContactBalance ContactResponse<B>::linearise(const Exec& exec, const LevelData<B
 template <class B>
 ContactBalance ContactResponse<B>::balance(const Exec& exec, const LevelData<B>& level,
                                            const State<B>& state) {
-  sum_list<B, 2>(exec, records_.list, "plica::contact_balance",
-                 LineariseContact<B>{at(level, state, 0), 0, false}, blocks_, sums_);
+  sum_long_terms<B, 2>(exec, records_, "plica::contact_balance",
+                       LineariseContact<B>{at(level, state, 0), 0, false}, sums_of_records_, sums_);
   return read_balance(exec);
 }
 
@@ -393,7 +393,8 @@ void ContactResponse<B>::name_fields(Archive<B>& archive, const std::string& nam
   archive.field(name + "contact: carried impulses", carried_impulse_);
   archive.field(name + "contact: friction's work", work_);
   archive.owns(own_, maker_.used, maker_.summed, blocks_.view(), common_.view(),
-               sums_of_records_.integers(), product_, free_, answer_, sums_, impulse_);
+               sums_of_records_.integers(), sums_of_records_.terms(), product_, free_, answer_,
+               sums_, impulse_);
   if (search_) search_->name_fields(archive);
   if (archive.restoring()) list_contacts<B>(exec, level.surface, records_, maker_);
 }

@@ -22,8 +22,8 @@ class Elasticity {
   virtual void force(const Exec&, const LevelData<B>&, const State<B>&, int evaluation) const = 0;
   /// Computes -(K(u) + `damping_scale` D(u)) p, D the damping of damping_stress.hpp,
   /// `damping_scale` in [1/s]. An empty u: the state whose gradients level.nodal keeps.
-  /// `projected`: the tangents of elements are projected to positive semi-definite; without a
-  /// matrix only nodal elements do that.
+  /// `projected`: the tangents of elements are projected to positive semi-definite; linear elements
+  /// have those of keep_tangents(), and without it their tangents as they are.
   virtual void tangent(const Exec&, const LevelData<B>&, const Vectors<B>& u, const Vectors<B>& p,
                        double damping_scale, bool projected = false) const = 0;
   /// Computes column `direction` of each vertex's own block of K(u) + `damping_scale` D(u).
@@ -31,10 +31,10 @@ class Elasticity {
   /// `projected`: see tangent(). Smoothed pressures of nodal elements are left out.
   virtual void diagonal(const Exec&, const LevelData<B>&, const Vectors<B>& u, int direction,
                         double damping_scale, bool projected = false) const = 0;
-  /// Stores the projected tangents of the state whose gradients level.nodal keeps.
-  /// They go to level.nodal.tangent, from where tangent() and diagonal() of that state read them if
-  /// `projected`.
-  virtual void keep_tangents(const Exec&, const LevelData<B>&) const {}
+  /// Stores the projected tangents of a displacement; with nodal elements, of the one whose
+  /// gradients level.nodal keeps. They go to level.nodal.tangent, from where tangent() and
+  /// diagonal() of that state read them if `projected`.
+  virtual void keep_tangents(const Exec&, const LevelData<B>&, const Vectors<B>& u) const = 0;
   /// Assembles A = (1 + b c) M + a K(u) + b D(u) in blocks, of linear elements.
   /// `projected`: the tangents of elements are projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u,

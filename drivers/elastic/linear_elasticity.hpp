@@ -6,6 +6,7 @@
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
+#include <plica/kernels/elastic/kept_elements.hpp>
 #include <plica/kernels/elastic/record_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
@@ -25,13 +26,21 @@ class LinearElasticity final : public Elasticity<B> {
                                level.partial);
   }
   void tangent(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u,
-               const Vectors<B>& p, double damping_scale, bool) const override {
+               const Vectors<B>& p, double damping_scale, bool projected) const override {
+    if (projected && has_kept(level))
+      return kept_element_tangent<B, Material>(exec, level, u, p, damping_scale);
     elastic_tangent<B, Material>(exec, level.model.patches, u, p, damping_scale, level.partial);
   }
   void diagonal(const Exec& exec, const LevelData<B>& level, const Vectors<B>& u, int direction,
-                double damping_scale, bool) const override {
+                double damping_scale, bool projected) const override {
+    if (projected && has_kept(level))
+      return kept_element_diagonal<B, Material>(exec, level, u, direction, damping_scale);
     elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, damping_scale,
                                   level.partial);
+  }
+  void keep_tangents(const Exec& exec, const LevelData<B>& level,
+                     const Vectors<B>& u) const override {
+    keep_element_tangents<B, Material>(exec, level, u);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
               const Vectors<B>& u, const ImplicitWeights& weights, bool projected,
@@ -55,6 +64,9 @@ class LinearElasticity final : public Elasticity<B> {
     if constexpr (requires { Material::splits_shape; })
       remember_elements<B, Material>(exec, level, u, constants);
   }
+
+ private:
+  static bool has_kept(const LevelData<B>& level) { return level.nodal.tangent.extent(0) > 0; }
 };
 
 template <class B, class Material>

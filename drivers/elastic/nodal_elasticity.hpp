@@ -40,7 +40,8 @@ class NodalElasticity final : public Elasticity<B> {
       nodal_diagonal<B, Material, Material::template Tangent>(exec, level, u, damping_scale,
                                                               direction);
   }
-  void keep_tangents(const Exec& exec, const LevelData<B>& level) const override {
+  void keep_tangents(const Exec& exec, const LevelData<B>& level,
+                     const Vectors<B>&) const override {
     keep_nodal_tangents<B, Material>(exec, level);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,

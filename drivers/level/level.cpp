@@ -197,16 +197,19 @@ template <class B>
 void Level<B>::incremental_energy(const State<B>& at) const {
   elasticity_->energy(exec(), *this, at.u);
   if (viscosity) add_relaxed_energy<B>(exec(), *this, at.u);
+  complete_shares<B>(exec(), *this);
 }
 
 template <class B>
-void Level<B>::keep_tangents() {
+void Level<B>::keep_tangents(const State<B>& at) {
   const NodalRows<B>& rows = this->model.rows;
-  if (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0) return;
+  const bool by_rows = rows.slices > 0;
+  if (by_rows && (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0)) return;
+  const int slots = by_rows ? rows.slots() : this->model.patches.packs * B::lanes;
   if (this->nodal.tangent.extent(0) == 0)
-    this->nodal.tangent = zeros<Scalars<B>>(
-        "plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(rows.slots()));
-  elasticity_->keep_tangents(exec(), *this);
+    this->nodal.tangent =
+        zeros<Scalars<B>>("plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(slots));
+  elasticity_->keep_tangents(exec(), *this, at.u);
 }
 
 template <class B>
@@ -214,6 +217,7 @@ void Level<B>::tangent(const State<B>& at, const Vectors<B>& p, double damping_s
                        bool projected) const {
   follow_masters(exec(), this->model, p);
   elasticity_->tangent(exec(), *this, state_or_cached(at), p, damping_scale, projected);
+  complete_shares<B>(exec(), *this);
 }
 
 template <class B>
@@ -254,6 +258,7 @@ void Level<B>::diagonal(const State<B>& at, const ImplicitWeights& weights, bool
   for (int direction = 0; direction < 3; ++direction) {
     elasticity_->diagonal(exec, *this, state_or_cached(at), direction, weights.b / weights.a,
                           projected);
+    complete_shares<B>(exec, *this);
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }

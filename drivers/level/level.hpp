@@ -131,14 +131,15 @@ class Level : public LevelData<B> {
                 const PatchPairs<B>& pairs, const Blocks9<B>& shares,
                 const BlockMatrix<B>& A) const;
   /// Computes and stores the projected tangents of the state that was linearised last, where
-  /// elements keep them.
-  void keep_tangents();
-  /// Computes partial = the shares of -K p at a state; see Elasticity::tangent.
+  /// elements keep them. Overwrites `partial`.
+  void keep_tangents(const State<B>& state);
+  /// Computes partial = the shares of -K p at a state; see Elasticity::tangent. On one of several
+  /// ranks, shares of others are received.
   void tangent(const State<B>& state, const Vectors<B>& p, double damping_scale = 0,
                bool projected = false) const;
 
   /// Computes the energy [J] whose derivative gives the elastic forces of the last evaluation, in
-  /// the x components of `partial`.
+  /// the x components of `partial`. On one of several ranks, shares of others are received.
   void incremental_energy(const State<B>& state) const;
 
   /// Runs work() and adds its time to a stage of this level.

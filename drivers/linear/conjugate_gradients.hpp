@@ -31,8 +31,8 @@ struct ConjugateGradients {
 
     Of(const LevelData<B>& level, const LinearSolverParts& parts)
         : options_(parts.options),
-          system_(level, parts.options.matrix == "assembled"),
-          krylov_(level.model.vertices),
+          system_(level, parts.options.matrix == "assembled", true),
+          krylov_(level.model.vertices, ranks_of<B>(level)),
           preconditioner_(make_preconditioner<B>(parts, system_)) {
       if (options_.iterations > 0) return;
       last_.emplace(level.model.vertices);
@@ -80,6 +80,7 @@ struct ConjugateGradients {
     }
 
     bool converges() const override { return options_.iterations == 0; }
+    bool reads_kept() const override { return system_.reads_kept(); }
 
     std::map<std::string, long> counters() const override {
       if (!preconditioner_) return {};

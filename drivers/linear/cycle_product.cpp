@@ -51,7 +51,7 @@ void CycleProduct<B>::prepare(const Level<B>& level, const State<B>& state,
     level_.nodal.tangent =
         zeros<Scalars<F>>("plica::cycle.tangent",
                           symmetric_nine * static_cast<std::size_t>(level_.model.rows.slots()));
-  elasticity_->keep_tangents(exec, level_);
+  elasticity_->keep_tangents(exec, level_, u_);
 }
 
 template <class B>

@@ -22,8 +22,9 @@ void LastSolutions<B>::start(const Exec& exec, const StageSystem<B>& system,
   const int n = system.rows();
   constexpr double least = 1e4 * Kokkos::Experimental::epsilon_v<typename B::Real>;
   system.products(exec, space_);
-  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums,
-                                    space_.products, SpaceWeights<B>{space_.products, least});
+  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", system.items(),
+                                    SpaceSums<B>{space_, r}, sums, space_.products,
+                                    SpaceWeights<B>{space_.products, least});
   update_vertices<B>(exec, "plica::space_guess", n, SpaceGuess<B>{space_, r, x});
 }
 
@@ -35,17 +36,17 @@ void LastSolutions<B>::add(const Exec& exec, const Vectors<B>& x) {
 template <class B>
 void LastSolutions<B>::name_fields(Archive<B>& archive) {
   archive.number(count_);
-  for (const auto& w : space_.w) archive.field("a last solution", w);
+  for (const auto& w : space_.w) archive.field("a last solution", w, RowItems::vertices);
   archive.owns(space_.q, space_.products);
 }
 
 template <class B>
-Krylov<B>::Krylov(int vertices)
+Krylov<B>::Krylov(int vertices, Ranks* ranks)
     : z_(zeros<Vectors<B>>("plica::cg.z", vertices)),
       p_(zeros<Vectors<B>>("plica::cg.p", vertices)),
       q_(zeros<Vectors<B>>("plica::cg.q", vertices)),
       scalars_(zeros<Doubles<B>>("plica::cg.scalars", cg::count)),
-      sums_(vertices) {}
+      sums_(vertices, ranks) {}
 
 template <class B>
 void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system,
@@ -61,8 +62,9 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system,
   }
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});
   system.product(exec, p_, q_, sums_, slot(cg::curvature), CgStep<B>{scalars_, product});
-  reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_,
-               slot(cg::square), CgJudge<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_advance", system.items(),
+               CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square),
+               CgJudge<B>{scalars_});
 }
 
 template <class B>
@@ -70,11 +72,11 @@ void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const Last
                       double tolerance, const Vectors<B>& r, const Vectors<B>& x) const {
   const CgSquare<B> square{system.inverse_diagonal(), r, z_};
   update_vertices<B>(exec, "plica::cg_tolerance", 1, CgTolerance<B>{scalars_, tolerance});
-  reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square),
-               CgBegin<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_zero", system.items(), CgZero<B>{square, x}, sums_,
+               slot(cg::square), CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
-  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
+  reduce<B, 1>(exec, "plica::cg_square", system.items(), square, sums_, slot(cg::square),
                CgGuess<B>{scalars_});
 }
 

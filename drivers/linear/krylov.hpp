@@ -44,7 +44,8 @@ class Krylov {
   using Exec = typename B::Exec;
   static constexpr int watch = B::on_host ? 1 : 8;
 
-  explicit Krylov(int vertices);
+  /// @param ranks  ranks that share the level; null: this process alone
+  explicit Krylov(int vertices, Ranks* ranks = nullptr);
   /// Solves A x = r, from a guess by the last solutions, if any; r becomes the residual.
   /// options.iterations > 0: exactly so many iterations; else until the relative residual is
   /// reached, or max_iterations.

@@ -54,6 +54,9 @@ class LinearSolver {
   /// Returns true where a solve ends at a small residual, false where it does a fixed amount of
   /// work.
   virtual bool converges() const { return true; }
+  /// Returns true where products with projected tangents read those that the level keeps, see
+  /// Level::keep_tangents().
+  virtual bool reads_kept() const { return false; }
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Names the solver's arrays and what it carries from one macro step to the next.
   virtual void name_fields(Archive<B>&) = 0;

@@ -101,9 +101,15 @@ bool solves_loosely(const Problem& problem, std::size_t level) {
 }  // namespace
 
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host,
-                                      std::string solver, double critical_step) {
+                                      std::string solver, double critical_step, bool on_ranks) {
   LinearSolverParts parts{problem.integration.implicit, {}, problem.body.material.model};
   ImplicitOptions& o = parts.options;
+  if (on_ranks) {
+    o.solver = solver == "auto" ? ConjugateGradients::name : std::move(solver);
+    if (o.preconditioner == "auto") o.preconditioner = BlockJacobi::name;
+    if (o.matrix == "auto") o.matrix = "free";
+    return parts;
+  }
   const Body& body = problem.body;
   const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);
   const bool nodal = element_of(body, level) == Element::nodal;
@@ -152,8 +158,11 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
     const bool pays = body.levels.size() == 1 ? over > least : level + 1 < body.levels.size();
     if (multigrid && (asked || (pays && !fixed))) add_multigrid(parts, body, level, asked);
   }
-  if (o.matrix == "auto")
-    o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
+  if (o.matrix == "auto") {
+    // projected tangents of linear elements cost more to keep than a matrix does
+    const bool few = fixed && o.iterations < fewest_assembled && o.tangent != "positive";
+    o.matrix = cycle || nodal || few ? "free" : "assembled";
+  }
   return parts;
 }
 

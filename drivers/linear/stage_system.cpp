@@ -9,9 +9,10 @@
 namespace plica {
 
 template <class B>
-StageSystem<B>::StageSystem(const LevelData<B>& level, bool assembled)
+StageSystem<B>::StageSystem(const LevelData<B>& level, bool assembled, bool kept)
     : nodal_(level.model.rows.slices > 0),
       assembled_(assembled),
+      kept_(kept),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
       level_(&level) {
   if (by_matrix()) pattern();
@@ -128,7 +129,7 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
     return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{stored(), p, q},
                         sums, curvature, then);
   product(exec, p, q);
-  reduce<B, 1>(exec, "plica::curvature", rows(), Dot<B>{p, q}, sums, curvature, then);
+  reduce<B, 1>(exec, "plica::curvature", items(), Dot<B>{p, q}, sums, curvature, then);
 }
 
 template <class B>

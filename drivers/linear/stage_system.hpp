@@ -4,6 +4,7 @@
 #include <plica/drivers/level/level.hpp>
 #include <plica/drivers/linear/block_pattern.hpp>
 #include <plica/drivers/linear/multigrid.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 #include <plica/kernels/linear/system_kernels.hpp>
 
@@ -18,11 +19,13 @@ class StageSystem {
  public:
   using Exec = typename B::Exec;
 
-  StageSystem(const LevelData<B>& level, bool assembled);
+  /// @param assembled  whether products of linear elements use the matrix
+  /// @param kept       whether products without it use tangents that linear elements keep, where
+  ///                   they are projected; else a matrix is assembled for these
+  StageSystem(const LevelData<B>& level, bool assembled, bool kept = false);
 
   /// Sets A to the system of a level at `state`, where its forces have just been linearised.
-  /// State and forces must not change until the next call. `projected`: with projected tangents,
-  /// for which linear elements are always assembled.
+  /// State and forces must not change until the next call. `projected`: with projected tangents.
   void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
                bool projected);
   /// Sets A to the system of the last prepare() with the elements' tangents projected.
@@ -54,6 +57,10 @@ class StageSystem {
   /// has no columns for vertices whose motion is given.
   bool composes() const { return level_->model.followers.any(); }
   int rows() const { return level_->model.vertices; }
+  /// Returns the rows, of which sums are taken over those that this rank owns.
+  Items items() const { return vertices_of<B>(*level_); }
+  /// Returns whether projected tangents are read from where the level keeps them.
+  bool reads_kept() const { return nodal_ || (kept_ && !assembled_); }
   void name_fields(Archive<B>& archive) const {
     archive.owns(pattern_, shares_, inverse_diagonal_, blocks_of_matrix_);
     archive.owns(composed_.matrix, composed_.map);
@@ -61,7 +68,7 @@ class StageSystem {
   }
 
  private:
-  bool nodal_, assembled_, ready_ = false;  ///< ready_: the matrix is that of this stage
+  bool nodal_, assembled_, kept_, ready_ = false;  ///< ready_: the matrix is that of this stage
   BlockPattern<B> pattern_;
   CoarseMatrix<B> composed_;  ///< matrix of the free vertices; empty where none follow others
   Blocks9<B> shares_;
@@ -80,7 +87,7 @@ class StageSystem {
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
   void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
   bool has_products() const { return level_->model.float_rows.slices > 0; }
-  bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
+  bool by_matrix() const { return !nodal_ && (assembled_ || (positive_ && !kept_)); }
 };
 
 }  // namespace plica

@@ -33,6 +33,7 @@ struct VCycleSolver {
           sums_(level.model.vertices) {}
 
     bool converges() const override { return false; }
+    bool reads_kept() const override { return system_.reads_kept(); }
     void prepare(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
                  bool projected) override {
       const Exec& exec = level.exec();

@@ -229,7 +229,7 @@ class HierarchyBuilder {
   /// half of them where pressures are smoothed: cmake/docs/results/solvers.md.
   BesideNodal beside_nodal(std::size_t i) const {
     constexpr double thick = 8;  // elements across
-    if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))
+    if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)) || own_.ranks())
       return BesideNodal::nothing;
     // products in float know nothing of vertices that slide or follow others
     if (!constants_[i].sliding.empty() || !built_.meshes[i].followers.vertex.empty())
@@ -429,8 +429,8 @@ class HierarchyBuilder {
         std::string solver = implicit.solver;
         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
         if (solver == "auto" && contact_ && contact_->couples()) solver = "conjugate_gradients";
-        const auto parts =
-            linear_solver_parts(problem_, i, B::on_host, solver, report.critical_step);
+        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver,
+                                               report.critical_step, own_.ranks() != nullptr);
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };

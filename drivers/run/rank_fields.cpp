@@ -48,10 +48,12 @@ RankFields::LevelItems RankFields::found(RankItems own) const {
   for (const std::vector<int>& one : level.points_of) level.points += one.size();
   const auto sizes =
       each_ranks(ranks_, std::vector{static_cast<std::uint64_t>(level.own.part->owned()),
-                                     static_cast<std::uint64_t>(level.own.element_bytes)});
+                                     static_cast<std::uint64_t>(level.own.element_bytes),
+                                     static_cast<std::uint64_t>(level.own.slots)});
   for (std::size_t r = 0; r < sizes.size(); ++r) {
-    if (r == index_of(ranks_.own())) level.elements_before = level.elements;
-    level.vertices += sizes[r][0], level.elements += sizes[r][1];
+    if (r == index_of(ranks_.own()))
+      level.elements_before = level.elements, level.slots_before = level.slots;
+    level.vertices += sizes[r][0], level.elements += sizes[r][1], level.slots += sizes[r][2];
   }
   return level;
 }
@@ -68,6 +70,8 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
       return level.vertices * rows.bytes;
     case RowItems::elements:
       return level.elements;
+    case RowItems::slots:
+      return level.slots * rows.bytes;
     default:
       return index_of(level.own.obstacles) * level.points * rows.bytes;
   }
@@ -77,7 +81,7 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
 RankFields::Field RankFields::owned(const LevelItems& level, const RowsOfField& rows,
                                     const Field& local) {
   const RankItems& own = level.own;
-  if (rows.of == RowItems::elements || local.empty()) return local;
+  if (rows.of == RowItems::elements || rows.of == RowItems::slots || local.empty()) return local;
   const auto row = [&](std::size_t i) {
     return local.begin() + static_cast<std::ptrdiff_t>(i * rows.bytes);
   };
@@ -126,6 +130,10 @@ RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char
   const RankItems& own = level.own;
   if (rows.of == RowItems::elements)
     return {whole + level.elements_before, whole + level.elements_before + own.element_bytes};
+  if (rows.of == RowItems::slots) {
+    const unsigned char* const first = whole + level.slots_before * rows.bytes;
+    return {first, first + own.slots * rows.bytes};
+  }
   Field all;
   const auto add = [&](std::size_t row) {
     all.insert(all.end(), whole + row * rows.bytes, whole + (row + 1) * rows.bytes);

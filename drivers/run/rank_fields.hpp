@@ -14,12 +14,14 @@ struct RankItems {
   std::vector<int> owned_points = {};  ///< places in `points` of those that it owns
   int obstacles = 0;                   ///< number of obstacles of the body
   std::size_t element_bytes = 0;       ///< size of the rank's field of elements
+  std::size_t slots = 0;               ///< number of the rank's slots of nodal elements
 };
 
 /// Fields of levels that several ranks share, in the order of the whole mesh:
 ///
 ///   vertices   | owned by rank 0 | by rank 1 | ...       a rank has these and copies of others
 ///   elements   | packs of rank 0 | of rank 1 | ...       a rank has just these
+///   slots      | slots of rank 0 | of rank 1 | ...       likewise
 ///   contacts   obstacle 0: points 0, 1, ... | obstacle 1: ...   a rank has some points of each
 class RankFields final : public SharedFields {
  public:
@@ -42,6 +44,7 @@ class RankFields final : public SharedFields {
     std::size_t vertices = 0;                      ///< number of vertices of the whole mesh
     std::size_t elements_before = 0;               ///< size of elements of ranks before [bytes]
     std::size_t elements = 0;                      ///< size of the elements of all ranks [bytes]
+    std::size_t slots_before = 0, slots = 0;       ///< numbers of slots of these ranks
     std::size_t points = 0;                        ///< number of points of the whole surface
     std::vector<std::vector<int>> points_of = {};  ///< points that each rank owns
   };

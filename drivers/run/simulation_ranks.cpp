@@ -143,6 +143,7 @@ std::unique_ptr<RankFields> Simulation<B>::Impl::shared_fields() {
     if (!level.ranks) continue;
     own.part = &level.ranks->part;
     own.element_bytes = fields::bytes_of(level.stress.memory);
+    own.slots = static_cast<std::size_t>(level.model.rows.slots());
     if (!level.contact()) continue;  // and then it is level 0
     own.points = built.surface_point, own.owned_points = built.owned_points;
     own.obstacles = static_cast<int>(problem.contact.obstacles.size());

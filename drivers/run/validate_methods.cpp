@@ -104,10 +104,6 @@ void check_v_cycle(const ImplicitOptions& o) {
 void check_implicit(const ImplicitOptions& o) {
   if (o.solver == "direct") check_direct(o);
   if (o.solver == "v_cycle") check_v_cycle(o);
-  if (o.matrix == "free" && o.tangent == "positive")
-    throw InputError(
-        "integration.implicit.matrix is free, but tangents projected to positive ones are "
-        "assembled; expected auto");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
+#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/steppers.hpp>
 #include <plica/drivers/run/validate.hpp>
@@ -15,14 +16,26 @@ std::string needs_one_process(const std::string& what, const std::string& expect
   return text(what, ", which runs on one process alone; expected ", expected, ", or one process");
 }
 
+/// Systems of implicit steps are solved by products alone: no rank has a matrix of all of them.
+std::string refused_solver(const ImplicitOptions& o) {
+  const std::string of = "integration.implicit.";
+  if (o.solver == "direct" || o.solver == "v_cycle")
+    return needs_one_process(of + "solver is " + o.solver, "conjugate_gradients");
+  if (o.preconditioner == "multigrid" || o.preconditioner == "chebyshev")
+    return needs_one_process(of + "preconditioner is " + o.preconditioner, "block_jacobi");
+  if (o.matrix == "assembled") return needs_one_process(of + "matrix is " + o.matrix, "free");
+  return {};
+}
+
 std::string refused_methods(const IntegrationOptions& o) {
   if (o.cycle != Single::name && !stepper_needs(o.cycle).coarse_states)
     return needs_one_process("integration.cycle is " + o.cycle,
                              "single, rs, rv, rsv, rsv_sv or fas");
   for (const std::string& name : o.integrator)
-    if (!is_explicit(name))
-      return needs_one_process("integration.integrator is " + name, "symplectic_euler");
-  return {};
+    if (name == VCycleEuler::name)
+      return needs_one_process("integration.integrator is " + name, ImplicitEuler::name);
+  return std::ranges::all_of(o.integrator, is_explicit) ? std::string()
+                                                        : refused_solver(o.implicit);
 }
 
 std::string refused_loads(const std::vector<LoadOptions>& loads) {

@@ -179,7 +179,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   void name_fields(Archive<B>& archive) override {
     ImplicitStep<B>::name_fields(archive);
     archive.number(carried_);
-    archive.field("the acceleration", acceleration_);
+    archive.field("the acceleration", acceleration_, RowItems::vertices);
     archive.owns(start_);
   }
 

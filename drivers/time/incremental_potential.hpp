@@ -18,6 +18,13 @@ struct IncrementalPotential {
   double masses = 0;    ///< root of the sum of the squared masses [kg]
   double volume = 0;    ///< least volume ratio of an element, 1 at most
   bool solved = false;  ///< whether the state solves the stage
+  /// Returns the potential with that of contact beside it.
+  /// @param energy  of contact, not below 0 [J]
+  IncrementalPotential beside(double energy) const {
+    IncrementalPotential sum = *this;
+    sum.value += energy, sum.scale += energy;
+    return sum;
+  }
   /// Returns whether `value` and `residual` are finite.
   bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
 };

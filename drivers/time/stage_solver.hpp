@@ -31,6 +31,7 @@ class StageSolver {
       : options_(parts.implicit),
         edge_(parts.edge),
         may_invert_(parts.may_invert),
+        given_(on_any_rank<B>(level, level.prescribed.count > 0)),
         rest_(parts.rest),
         judged_(rest_ > 0 ? rest_
                           : parts.implicit.newton_tolerance.value_or(
@@ -113,7 +114,7 @@ class StageSolver {
     archive.number(residual_), archive.number(projecting_);
     if (carries())
       archive.number(updates_), archive.number(fresh_),
-          archive.field("the carried dilatations", carried_);
+          archive.field("the carried dilatations", carried_, RowItems::slots);
     archive.owns(base_, right_side_, change_, dead_, carrying_, last_carried_);
     sums_.name_fields(archive);
     solver_->name_fields(archive);
@@ -121,7 +122,8 @@ class StageSolver {
   /// Names what steps that are taken again must begin with; see Integrator::name_memory().
   void name_memory(Archive<B>& archive) {
     archive.number(projecting_);
-    if (carries()) archive.number(fresh_), archive.field("the carried dilatations", carried_);
+    if (carries())
+      archive.number(fresh_), archive.field("the carried dilatations", carried_, RowItems::slots);
   }
 
  private:
@@ -147,6 +149,7 @@ class StageSolver {
   ImplicitOptions options_;
   double edge_;      ///< mean edge length [m]
   bool may_invert_;  ///< whether elements may invert
+  bool given_;       ///< whether the motion of a vertex of the whole level is given
   double rest_;      ///< part of the forces that may be unbalanced at rest; 0: the body moves
   /// unbalanced parts of the forces: a stage with judged_ or less is solved; Newton's method ends
   /// at aim_ or less
@@ -169,7 +172,8 @@ class StageSolver {
   long projecting_ = 0;
 
   bool iterates() const { return options_.newton_iterations > 1; }
-  bool carries() const { return carried_.extent(0) > 0; }
+  // not by its size: one of several ranks may have no slot
+  bool carries() const { return last_carried_.use_count() > 0; }
   StageAt<B> at(const LevelData<B>& level, const ImplicitWeights& w) const {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
   }
@@ -180,7 +184,7 @@ class StageSolver {
     const double tolerance = options_.relative_residual;
     SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
     if (out.indefinite && options_.tangent == "auto" &&
-        level.has_terms(TermStiffness::unassembled) && level.prescribed.count == 0) {
+        level.has_terms(TermStiffness::unassembled) && !given_) {
       undo(level, weights, 1);  // pressures that follow the body made the system indefinite
       if (!out.converged) --misses_;
       out = correct(level, weights, false, true, tolerance);
@@ -203,7 +207,7 @@ class StageSolver {
     }
     SolveOutcome out;
     level.timed("solve", [&] {
-      if (projected) level.keep_tangents();
+      if (projected && solver_->reads_kept()) level.keep_tangents(level.state);
       solver_->prepare(level, level.state, w, projected);
       if (from_start && !projected && level.is_stiffness_alone())
         by_product = solver_->multiply(level.exec(), gap, right_side_);
@@ -266,9 +270,9 @@ class StageSolver {
       if (rest_ > 0) now.forces += by.forces;
     }
     // A body at rest without given motions is solved at once
-    now.solved = rest_ > 0 ? begins_at_rest(level, ahead, w, now)
-                           : level.prescribed.count == 0 &&
-                                 std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    now.solved = rest_ > 0
+                     ? begins_at_rest(level, ahead, w, now)
+                     : !given_ && std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
     const double first = now.residual;
     const int most = iterates() ? options_.newton_iterations : contact_iterations;
     const bool once = !solver_->converges() && touches(level);
@@ -301,7 +305,7 @@ class StageSolver {
   bool begins_at_rest(const Level<B>& level, double ahead, const ImplicitWeights& w,
                       IncrementalPotential& now) {
     now.residual = std::sqrt(vertex_terms(level, w, 0)[1]);
-    const bool moves = ahead > 0 && (level.prescribed.count > 0 || touches(level));
+    const bool moves = ahead > 0 && (given_ || touches(level));
     unsolved_ = is_balanced(now, w, 0) ? 0 : now.residual / std::max(now.forces, 1e-300);
     at_rest_ = !moves && is_balanced(now, w, judged_);
     if (at_rest_) residual_ = std::max(residual_, unsolved_);
@@ -321,7 +325,7 @@ class StageSolver {
     contact.update_caps(level.exec(), level, level.state);
     const ContactBalance by =
         contact.linearise(level.exec(), level, level.state, w, 0, level.f, cut_);
-    const double volume = std::exchange(now, with_contact(potential(level, end, w), by)).volume;
+    const double volume = std::exchange(now, potential(level, end, w).beside(by.energy)).volume;
     now.volume = volume, now.forces += by.forces;
   }
 
@@ -347,7 +351,7 @@ class StageSolver {
                                               double tolerance) {
     const double end = time + ahead;
     // In the first system given motions move: potentials before and after cannot be compared
-    const bool first = k == 0, moving = first && ahead > 0 && level.prescribed.count > 0;
+    const bool first = k == 0, moving = first && ahead > 0 && given_;
     const bool may_project = options_.tangent == "auto";
     bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
     if (may_project && projecting_ > 0) --projecting_;
@@ -412,12 +416,8 @@ class StageSolver {
   IncrementalPotential here(Level<B>& level, double end, const ImplicitWeights& w) {
     const IncrementalPotential p = potential(level, end, w);
     return touches(level)
-               ? with_contact(p, level.response().balance(level.exec(), level, level.state))
+               ? p.beside(level.response().balance(level.exec(), level, level.state).energy)
                : p;
-  }
-  static IncrementalPotential with_contact(IncrementalPotential p, const ContactBalance& contact) {
-    p.value += contact.energy, p.scale += contact.energy;
-    return p;
   }
 
   /// Returns `now` for the state before the last change, with its value at the present mixed

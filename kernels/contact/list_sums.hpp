@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <plica/core/exact_sum.hpp>
+#include <plica/kernels/contact/contact_list.hpp>
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <utility>
@@ -24,7 +25,10 @@ class ListSums {
   ListSums() = default;
   /// @param most   largest length of the list
   /// @param ranks  ranks over which sums are taken; null: this process alone
-  ListSums(int most, Ranks* ranks) : ranks_(ranks) {
+  /// @param terms  most terms of a record that sum_long_terms() keeps
+  ListSums(int most, Ranks* ranks, int terms = 0)
+      : terms_(zeros<Doubles<B>>("plica::list_terms", static_cast<std::size_t>(most * terms))),
+        ranks_(ranks) {
     const int workers = B::for_cpu ? typename B::Exec().concurrency() : 64;
     parts_ = Kokkos::max(1, Kokkos::min(workers, most / 64));
     integers_ = zeros<View>("plica::list_sums",
@@ -33,6 +37,7 @@ class ListSums {
   int parts() const { return parts_; }
   Ranks* ranks() const { return ranks_; }
   const View& integers() const { return integers_; }
+  const Doubles<B>& terms() const { return terms_; }
 
   /// Takes the integers of a sum of n numbers, which finish() sums over the ranks. total(exec) then
   /// computes the result from those of all ranks.
@@ -67,6 +72,7 @@ class ListSums {
   };
   int parts_ = 0;
   View integers_;
+  Doubles<B> terms_;  ///< [records in use][terms]
   Ranks* ranks_ = nullptr;
   mutable std::vector<std::int64_t> waiting_;
   mutable std::vector<Total> totals_;
@@ -140,6 +146,36 @@ void sum_records(const typename B::Exec& exec, const ContactRecords<B>& records,
                  const Term& term, const ListSums<B>& memory, const Doubles<B>& result) {
   sum_records_later<B, N>(exec, records, label, term, memory, result);
   memory.finish(exec);
+}
+
+/// Keeps the terms of a record in use.
+template <class B, class Term>
+struct KeepTerms {
+  Term term;
+  Doubles<B> terms;
+  int count;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const auto one = term(i);
+    for (int k = 0; k < count; ++k) terms(i * count + k) = one[k];
+  }
+};
+template <class B, int N>
+struct KeptTerms {
+  Doubles<B> terms;
+  KOKKOS_INLINE_FUNCTION Sums<N> operator()(int i) const {
+    Sums<N> one;
+    for (int k = 0; k < N; ++k) one[k] = terms(i * N + k);
+    return one;
+  }
+};
+
+/// Computes such a sum of terms that take long: a GPU has a thread for each record.
+template <class B, int N, class Term>
+void sum_long_terms(const typename B::Exec& exec, const ContactRecords<B>& records,
+                    const char* label, const Term& term, const ListSums<B>& memory,
+                    const Doubles<B>& result) {
+  over_list<B>(exec, records.list, label, KeepTerms<B, Term>{term, memory.terms(), N});
+  sum_records<B, N>(exec, records, label, KeptTerms<B, N>{memory.terms()}, memory, result);
 }
 
 }  // namespace plica

@@ -99,7 +99,7 @@ void keep_nodal_tangents(const typename B::Exec& exec, const LevelData<B>& level
 
 template <class B>
 void kept_tangent(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& p) {
-  lay_out<B>(exec, level.model.rows, level.nodal, {p});
+  lay_out<B>(exec, level, {p});
   launch_rows<B>(exec, "plica::nodal_kept_tangent", level, KeptTangent<B>{level.nodal.tangent});
 }
 
@@ -109,6 +109,7 @@ void kept_diagonal(const typename B::Exec& exec, const LevelData<B>& level, int 
   for_rows<B>(exec, "plica::nodal_diagonal", rows,
               RowStresses<B, KeptDiagonal<B>>{
                   rows, level.nodal, {level.nodal.tangent, rows.inverse_volume, direction}, true});
+  share_slots<B>(exec, level, level.nodal.records, 12);
   for_rows<B>(
       exec, "plica::nodal_own_blocks", rows,
       RowDiagonal<B>{rows, RowScales<B>(rows), level.nodal.records, level.partial, direction});

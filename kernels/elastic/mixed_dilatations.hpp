@@ -42,8 +42,9 @@ void carry_dilatations(const typename B::Exec& exec, const LevelData<B>& level, 
                        const Vectors<B>& du) {
   const NodalRows<B>& rows = level.model.rows;
   const NodalWork<B>& work = level.nodal;
-  lay_out<B>(exec, rows, work, {u, du});
+  lay_out<B>(exec, level, {u, du});
   for_rows<B>(exec, "plica::nodal_volumes", rows, ForeseenDilatations<B, Material>{rows, work});
+  share_slots<B>(exec, level, work.ratio, 1);
   for_rows<B>(exec, "plica::nodal_smooth", rows,
               SmoothRows<B, 1>{rows, work.ratio, carried_dilatations<B>(rows, work)});
 }

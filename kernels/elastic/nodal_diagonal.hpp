@@ -132,13 +132,14 @@ void nodal_diagonal(const typename B::Exec& exec, const LevelData<B>& level, con
   const RowScales<B> scales(rows);
   const auto rate = static_cast<typename B::Real>(damping_scale);
   const bool kept = u.extent(0) == 0;
-  if (!kept) lay_out<B>(exec, rows, level.nodal, {u});
+  if (!kept) lay_out<B>(exec, level, {u});
   by_case(damping_scale > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(
                                                                std::bool_constant<damped>) {
     for_rows<B>(exec, "plica::nodal_diagonal", rows,
                 RowStresses<B, NodalDiagonal<B, Material, Tangent, damped>>{
                     rows, level.nodal, {scales, rows.inverse_volume, rate, direction}, kept});
   });
+  share_slots<B>(exec, level, level.nodal.records, 12);
   for_rows<B>(exec, "plica::nodal_own_blocks", rows,
               RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, direction});
 }

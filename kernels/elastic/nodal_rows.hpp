@@ -117,6 +117,8 @@ struct KeepGradients {
   }
 };
 
+/// Keeps the gradients of displacements at which forces have been computed: values at vertices that
+/// other ranks own were received then.
 template <class B>
 void keep_gradients(const typename B::Exec& exec, const LevelData<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;

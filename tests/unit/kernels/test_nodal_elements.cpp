@@ -240,7 +240,7 @@ TEST(NodalElements, KeepProjectedTangents) {
     level.linearise(state, 0, {1e-4, 1e-2}, 0, level.f);
     const auto anew = tangent(3), other = tangent(4);
     const auto blocks = own_blocks();
-    level.keep_tangents();
+    level.keep_tangents(state);
     ASSERT_GT(level.nodal.tangent.extent(0), 0);
     EXPECT_LE(largest_difference(tangent(3), anew), 1e-11 * largest(anew));
     EXPECT_LE(largest_difference(tangent(4), other), 1e-11 * largest(other));

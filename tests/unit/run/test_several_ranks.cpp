@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <plica/core/baton_ranks.hpp>
@@ -14,88 +13,13 @@
 #include "support/backends.hpp"
 #include "support/pressed_organ.hpp"
 #include "support/refusal.hpp"
+#include "support/several_ranks.hpp"
 
 // A body that several ranks share has the bits of one process.
 namespace {
 
 using namespace plica;
 using namespace plica::test;
-
-constexpr int macro_steps = 6;
-
-/// All that a run comes to.
-struct Outcome {
-  std::vector<Point> positions, velocities;
-  std::vector<double> numbers;  ///< steps, energies, forces
-  double contact_energy = 0;    ///< energy of contact at the end [J]
-  Point force = Point::Zero();  ///< force of the ball over the last macro step [N]
-};
-
-/// Adds the numbers that all ranks know.
-template <class B>
-void add_numbers(const Simulation<B>& simulation, std::vector<double>& numbers) {
-  const auto add = [&](const Point& p) { numbers.insert(numbers.end(), {p[0], p[1], p[2]}); };
-  const Energies e = simulation.energies();
-  numbers.insert(numbers.end(),
-                 {simulation.macro_step(), simulation.levels()[0].critical_step, e.kinetic,
-                  e.elastic, e.potential, e.contact, simulation.friction_work()});
-  for (const Wrench& w : simulation.wrenches()) add(w.force), add(w.torque);
-  for (const Reaction& r : simulation.reactions()) add(r.force), add(r.torque);
-  for (const ToolState& t : simulation.tools()) add(t.displacement), add(t.velocity);
-  for (const double depth : simulation.contact_depths()) numbers.push_back(depth);
-  for (const double part : simulation.slipping()) numbers.push_back(part);
-}
-
-bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-bool equal_bits(const std::vector<Point>& a, const std::vector<Point>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
-}
-
-template <class B>
-void take_steps(Simulation<B>& simulation) {
-  for (int n = 0; n < macro_steps; ++n)
-    if (const auto bad = simulation.step_checked()) {
-      ADD_FAILURE() << bad->text();
-      return;
-    }
-}
-
-template <class B>
-Outcome on_one_process(const Problem& problem) {
-  Simulation<B> simulation(problem);
-  take_steps(simulation);
-  Outcome outcome{simulation.positions(), simulation.velocities(), {}};
-  add_numbers(simulation, outcome.numbers);
-  outcome.contact_energy = simulation.energies().contact;
-  for (const Wrench& w : simulation.wrenches()) outcome.force += w.force;
-  return outcome;
-}
-
-/// Expects that the ranks together have the same outcome, and each the same numbers.
-template <class B>
-void expect_on_ranks(const Outcome& expected, const Problem& problem, int count) {
-  SCOPED_TRACE(std::to_string(count) + " ranks");
-  Outcome all;
-  all.positions.resize(expected.positions.size(), Point::Zero());
-  all.velocities = all.positions;
-  BatonRanks(count).run([&](Ranks& ranks) {
-    Simulation<B> simulation(problem, typename B::Exec(), ranks);
-    take_steps(simulation);
-    const std::vector<Point> x = simulation.positions(), v = simulation.velocities();
-    const std::vector<int> numbers = simulation.numbers();
-    ASSERT_EQ(x.size(), numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      all.positions[static_cast<std::size_t>(numbers[i])] = x[i],
-      all.velocities[static_cast<std::size_t>(numbers[i])] = v[i];
-    std::vector<double> own;
-    add_numbers(simulation, own);
-    EXPECT_TRUE(equal_bits(own, expected.numbers)) << "rank " << ranks.own();
-  });
-  EXPECT_TRUE(equal_bits(all.positions, expected.positions));
-  EXPECT_TRUE(equal_bits(all.velocities, expected.velocities));
-}
 
 template <class B>
 class SeveralRanks : public testing::Test {};
@@ -199,6 +123,13 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOptionOnSeveralLevels) {
       {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
       {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
       {"extrapolation", [](Problem& p) { p.integration.outside = "extrapolate"; }},
+      {"implicit coarse level",
+       [](Problem& p) {
+         p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};
+         p.integration.implicit.solver = "conjugate_gradients";
+         p.integration.implicit.preconditioner = "block_jacobi";
+         p.integration.implicit.matrix = "free";
+       }},
       {"an element for each level", [](Problem& p) {
          p.body.element = {"nodal", "nodal", "linear"};
          p.integration.cycle = "rs";
@@ -338,9 +269,9 @@ TEST(SeveralRanksRefusals, NameTheOptionAndTheAlternative) {
     });
     return said;
   };
-  EXPECT_EQ(refused([](Problem& p) { p.integration.integrator = {"implicit_euler"}; }),
-            "integration.integrator is implicit_euler, which runs on one process alone; expected "
-            "symplectic_euler, or one process");
+  EXPECT_EQ(refused([](Problem& p) { p.integration.integrator = {"v_cycle_euler"}; }),
+            "integration.integrator is v_cycle_euler, which runs on one process alone; expected "
+            "implicit_euler, or one process");
   EXPECT_EQ(
       refused([](Problem& p) { p.integration.cycle = "him"; }),
       "integration.cycle is him, which runs on one process alone; expected single, rs, rv, rsv, "
