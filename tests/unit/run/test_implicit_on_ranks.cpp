@@ -44,6 +44,14 @@ void expect_the_bits_of_one(const Problem& problem, const std::vector<int>& coun
   for (const int count : counts) expect_on_ranks<B>(one, problem, count, implicit_steps);
 }
 
+/// Smooths the pressures of nodal elements. Systems of longer steps, and of bodies that are less
+/// compressible, take many iterations.
+void smooth_pressures(Problem& p) {
+  p.body.material.poisson_ratio = 0.45;
+  p.integration.macro_step = 1e-3;
+  if (p.body.element.front() == "nodal") p.body.pressure = "smoothed";
+}
+
 /// Options of implicit steps, and of bodies that take them.
 const std::map<std::string, std::function<void(Problem&)>>& options() {
   static const std::map<std::string, std::function<void(Problem&)>> all = {
@@ -52,7 +60,7 @@ const std::map<std::string, std::function<void(Problem&)>>& options() {
        [](Problem& p) {
          p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
        }},
-      {"smoothed pressures", [](Problem& p) { p.body.material.poisson_ratio = 0.495; }},
+      {"smoothed pressures", smooth_pressures},
       {"regions",
        [](Problem& p) {
          p.body.regions["inclusion"].young_modulus = 60e3;
@@ -75,7 +83,7 @@ const std::map<std::string, std::function<void(Problem&)>>& options() {
       {"fixed iterations", [](Problem& p) { p.integration.implicit.iterations = 12; }},
       {"exact tangents", [](Problem& p) { p.integration.implicit.tangent = "exact"; }},
       {"long steps", [](Problem& p) {
-         p.integration.macro_step = 0.02;
+         p.integration.macro_step = 0.012;
          p.integration.on_failure.halvings = 2;
        }}};
   return all;
@@ -143,6 +151,7 @@ TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
   const auto check = [](const Problem& problem) {
     Simulation<B> one(by_products(problem));
     take_steps(one, 2);
+    EXPECT_EQ(one.counters().contains("pressure_updates"), problem.body.pressure == "smoothed");
     const SavedState saved = one.save();
     take_steps(one, 1);
     const SavedState end = one.save();
@@ -166,7 +175,7 @@ TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
       check(implicit_organ(integrator, lump(), element));
     }
   Problem smoothed = implicit_organ("implicit_euler", lump(), "nodal");
-  smoothed.body.material.poisson_ratio = 0.495;
+  smooth_pressures(smoothed);
   smoothed.body.material.prony = {{0.3, 0.01}};
   check(smoothed);
 }
