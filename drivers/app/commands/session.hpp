@@ -110,13 +110,16 @@ auto with_set_up(const Scene& scene, const std::string& precision, const Action&
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<CycleChoice> choice;
     std::optional<Simulation<B>> simulation;
-    try {
-      choice = set_up<B>(simulation, scene, made);
-    } catch (const SubstepRefused& error) {
-      throw located(in_input_numbers(error, scene), scene.source);
-    } catch (const InputError& error) {
-      throw located(error, scene.source);
-    }
+    const auto make = [&] {
+      try {
+        choice = set_up<B>(simulation, scene, made);
+      } catch (const SubstepRefused& error) {
+        throw located(in_input_numbers(error, scene), scene.source);
+      } catch (const InputError& error) {
+        throw located(error, scene.source);
+      }
+    };
+    made.ranks ? made.ranks->together(make) : make();  // what is refused, all ranks refuse
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(),
                           std::is_same_v<typename B::Real, float> ? "float" : "double", choice};
