@@ -119,7 +119,7 @@ auto with_set_up(const Scene& scene, const std::string& precision, const Action&
         throw located(error, scene.source);
       }
     };
-    made.ranks ? made.ranks->together(make) : make();  // what is refused, all ranks refuse
+    made.ranks ? made.ranks->together(make) : make();  // all ranks refuse the same
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(),
                           std::is_same_v<typename B::Real, float> ? "float" : "double", choice};

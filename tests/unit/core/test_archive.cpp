@@ -101,7 +101,7 @@ TYPED_TEST(ArchiveOf, KnowsTheMembersOfTheLevelsArrays) {
     return n;
   };
   EXPECT_EQ(arrays(Transfer<B>{}), 3);
-  EXPECT_EQ(arrays(EmbeddedSurface<B>{}), 8);
+  EXPECT_EQ(arrays(EmbeddedSurface<B>{}), 10);
   EXPECT_EQ(arrays(Patches<B>{}), 16);
   EXPECT_EQ(arrays(NodalRows<B>{}), 20);
   EXPECT_EQ(arrays(ViscousHistory<B>{}), 4);
