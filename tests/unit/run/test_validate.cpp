@@ -296,6 +296,36 @@ TEST(Validate, DoubtsElementsThatAreTooStiff) {
   EXPECT_NE(said("nodal", 0.45, {20, 1, 1}).find("expected a finer mesh"), std::string::npos);
 }
 
+// Long steps let a vertex slip late off a tool that is narrower than an edge.
+TEST(Validate, DoubtsNarrowToolsInLongSteps) {
+  const auto said = [](const ShapeOptions& shape, const std::function<void(Problem&)>& change) {
+    Problem p = body_of({box_mesh({{0, 0, 0}, {0.1, 0.1, 0.1}}, {8, 8, 8})});  // edges of 16 mm
+    p.body.element = {"nodal"};
+    p.contact.obstacles = {{shape, {}, SteadyMotion(Point(0.1, 0, 0))}};
+    change(p);
+    const auto all = problem_warnings(p);
+    return all.empty() ? std::string() : all.front();
+  };
+  const auto implicit = [](Problem& p) { p.integration.integrator = {"implicit_euler"}; };
+  const auto him = [](Problem& p) { p.integration.cycle = "him"; };
+  const Point above(0.05, 0.05, 0.2), top(0.05, 0.05, 0.4);
+  const ShapeOptions narrow = CapsuleOptions{above, top, 2e-3},
+                     wide = CapsuleOptions{above, top, 0.03};
+  EXPECT_EQ(said(narrow, implicit).find("contact.obstacles.0: its radius of 2 mm is below"), 0u);
+  EXPECT_EQ(said(narrow, him).find("contact.obstacles.0: its radius of 2 mm is below"), 0u);
+  EXPECT_NE(said(ConeOptions{above, top, 0.03, 1e-3}, him).find("radius of 1 mm"),
+            std::string::npos);
+  EXPECT_EQ(said(wide, him), "");
+  EXPECT_EQ(said(narrow, [](Problem&) {}), "") << "explicit steps are short";
+  EXPECT_EQ(said(narrow,
+                 [&](Problem& p) {
+                   him(p);
+                   p.contact.obstacles.front().motion = SteadyMotion(Point::Zero());
+                 }),
+            "")
+      << "nothing is drawn along";
+}
+
 // A strip of one cell, of which every vertex lies on the surface; not organs with thin borders.
 TEST(Validate, DoubtsOneNodalElementAcross) {
   const auto said = [](const TetMesh& mesh) {
