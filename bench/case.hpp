@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <unistd.h>
+
 #include <memory>
 #include <string>
 
@@ -33,6 +35,12 @@ void for_each_case(const F& f, const std::vector<Cells>& sizes = body_sizes()) {
       f.template operator()<Backend<float, Exec>, Material>(
           {model + "/float/" + tets, model, cells});
     });
+}
+
+/// Returns whether the machine's memory is larger than so many bytes.
+inline bool has_room_for(double bytes) {
+  return bytes <
+         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 namespace fixtures {

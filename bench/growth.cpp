@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
-
 #include <plica/core/text.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 
@@ -35,16 +33,12 @@ struct SaggingBeam {
   }
 };
 
-bool has_room_for(double tets) {
-  constexpr double bytes_per_tet = 700;  // of the set-up
-  return tets * bytes_per_tet <
-         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 /// One explicit step at 0.9 of the limit. Compulsory: elements, mass and its inverse, displacement
 /// and velocity in and out. It is judged by its bytes alone.
 void growing_step(benchmark::State& state, const Cells& cells, const std::string& element) {
-  if (!has_room_for(beam_tets(cells))) return state.SkipWithError("not enough memory");
+  constexpr double bytes_per_tet = 700;  // of the set-up
+  if (!has_room_for(bytes_per_tet * beam_tets(cells)))
+    return state.SkipWithError("not enough memory");
   auto& beam = fixture<SaggingBeam>(text("sagging ", element, " ", beam_tets(cells)),
                                     [&] { return std::make_shared<SaggingBeam>(cells, element); });
   const auto& level = (*beam.built.hierarchy)[0];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <plica/core/text.hpp>
@@ -28,14 +27,10 @@ struct OrderedCube {
   }
 };
 
-bool has_room_for(double tets) {
-  constexpr double bytes_per_tet = 150;
-  return tets * bytes_per_tet <
-         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 void plan(benchmark::State& state, int cells, Element element, int ranks) {
-  if (!has_room_for(6.0 * cells * cells * cells)) return state.SkipWithError("not enough memory");
+  constexpr double bytes_per_tet = 150;  // of the mesh, its order and a plan
+  if (!has_room_for(bytes_per_tet * 6 * cells * cells * cells))
+    return state.SkipWithError("not enough memory");
   const OrderedCube& cube = fixture<OrderedCube>(
       text("ordered cube ", cells), [&] { return std::make_shared<OrderedCube>(cells); });
   std::vector<RankPlan> plans;
