@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
+#include <map>
 #include <plica/core/baton_ranks.hpp>
 #include <plica/drivers/run/simulation.hpp>
 #include <string>
@@ -12,6 +14,34 @@
 namespace plica::test {
 
 inline constexpr int macro_steps = 6;
+
+/// Changes of the pressed organ, by name.
+using ProblemOptions = std::map<std::string, std::function<void(Problem&)>>;
+
+/// Returns these options, and those of the body and its tool that every method takes.
+inline ProblemOptions with_body_options(ProblemOptions options) {
+  options.merge(ProblemOptions{
+      {"relaxation",
+       [](Problem& p) {
+         p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
+       }},
+      {"regions",
+       [](Problem& p) {
+         p.body.regions["inclusion"].young_modulus = 60e3;
+         p.body.regions["inclusion"].damping.mass = 9;
+       }},
+      {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
+      {"turn",
+       [](Problem& p) {
+         p.body.prescribed.front().motion = {};
+         p.body.prescribed.front().rotate = Turn{Point::UnitX(), {}, Point::Zero(), SteadyTurn{3}};
+       }},
+      {"tool with mass", [](Problem& p) {
+         p.contact.obstacles.front().mass = 0.05;
+         p.contact.obstacles.front().coupling.stiffness = 50;
+       }}});
+  return options;
+}
 
 /// All that a run comes to.
 struct Outcome {

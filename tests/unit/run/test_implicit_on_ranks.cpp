@@ -53,39 +53,19 @@ void smooth_pressures(Problem& p) {
 }
 
 /// Options of implicit steps, and of bodies that take them.
-const std::map<std::string, std::function<void(Problem&)>>& options() {
-  static const std::map<std::string, std::function<void(Problem&)>> all = {
-      {"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-3; }},
-      {"relaxation",
-       [](Problem& p) {
-         p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
-       }},
-      {"smoothed pressures", smooth_pressures},
-      {"regions",
-       [](Problem& p) {
-         p.body.regions["inclusion"].young_modulus = 60e3;
-         p.body.regions["inclusion"].damping.mass = 9;
-       }},
-      {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
-      {"turn",
-       [](Problem& p) {
-         p.body.prescribed.front().motion = {};
-         p.body.prescribed.front().rotate = Turn{Point::UnitX(), {}, Point::Zero(), SteadyTurn{3}};
-       }},
-      {"nothing moved", [](Problem& p) { p.body.prescribed.clear(); }},
-      {"tool with mass",
-       [](Problem& p) {
-         p.contact.obstacles.front().mass = 0.05;
-         p.contact.obstacles.front().coupling.stiffness = 50;
-       }},
-      {"no contact", [](Problem& p) { p.contact = {}, p.body.surface.reset(); }},
-      {"one linear system", [](Problem& p) { p.integration.implicit.newton_iterations = 1; }},
-      {"fixed iterations", [](Problem& p) { p.integration.implicit.iterations = 12; }},
-      {"exact tangents", [](Problem& p) { p.integration.implicit.tangent = "exact"; }},
-      {"long steps", [](Problem& p) {
-         p.integration.macro_step = 0.012;
-         p.integration.on_failure.halvings = 2;
-       }}};
+const ProblemOptions& options() {
+  static const ProblemOptions all = with_body_options(
+      {{"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-3; }},
+       {"smoothed pressures", smooth_pressures},
+       {"nothing moved", [](Problem& p) { p.body.prescribed.clear(); }},
+       {"no contact", [](Problem& p) { p.contact = {}, p.body.surface.reset(); }},
+       {"one linear system", [](Problem& p) { p.integration.implicit.newton_iterations = 1; }},
+       {"fixed iterations", [](Problem& p) { p.integration.implicit.iterations = 12; }},
+       {"exact tangents", [](Problem& p) { p.integration.implicit.tangent = "exact"; }},
+       {"long steps", [](Problem& p) {
+          p.integration.macro_step = 0.012;
+          p.integration.on_failure.halvings = 2;
+        }}});
   return all;
 }
 

@@ -53,35 +53,16 @@ TYPED_TEST(SeveralRanks, HaveTheBitsOfOneInEachMaterial) {
 // Options of an explicit level: damping by stiffness, relaxation, smoothed pressures,
 // regions, sliding vertices, a turn, a tool with mass, other integrators.
 TYPED_TEST(SeveralRanks, HaveTheBitsOfOneWithEachOption) {
-  const std::map<std::string, std::function<void(Problem&)>> options = {
-      {"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-5; }},
-      {"relaxation",
-       [](Problem& p) {
-         p.body.material.prony = {{0.3, 0.01}, {0.2, 0.1}};
-       }},
-      {"smoothed pressures", [](Problem& p) { p.body.material.poisson_ratio = 0.495; }},
-      {"regions",
-       [](Problem& p) {
-         p.body.regions["inclusion"].young_modulus = 60e3;
-         p.body.regions["inclusion"].damping.mass = 9;
-       }},
-      {"sliding", [](Problem& p) { p.body.fixed.front().along = {"x"}; }},
-      {"turn",
-       [](Problem& p) {
-         p.body.prescribed.front().motion = {};
-         p.body.prescribed.front().rotate = Turn{Point::UnitX(), {}, Point::Zero(), SteadyTurn{3}};
-       }},
-      {"tool with mass",
-       [](Problem& p) {
-         p.contact.obstacles.front().mass = 0.05;
-         p.contact.obstacles.front().coupling.stiffness = 50;
-       }},
-      {"central_difference", [](Problem& p) { p.integration.integrator = {"central_difference"}; }},
-      {"rk4", [](Problem& p) { p.integration.integrator = {"rk4"}; }},
-      {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
-      {"stretched", [](Problem& p) {
-         p.body.initial.stretch = {1.02, 1, 0.99};
-       }}};
+  const ProblemOptions options = with_body_options(
+      {{"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-5; }},
+       {"smoothed pressures", [](Problem& p) { p.body.material.poisson_ratio = 0.495; }},
+       {"central_difference",
+        [](Problem& p) { p.integration.integrator = {"central_difference"}; }},
+       {"rk4", [](Problem& p) { p.integration.integrator = {"rk4"}; }},
+       {"halvings", [](Problem& p) { p.integration.on_failure.halvings = 2; }},
+       {"stretched", [](Problem& p) {
+          p.body.initial.stretch = {1.02, 1, 0.99};
+        }}});
   for (const auto& [name, change] : options)
     for (const char* element : {"linear", "nodal"}) {
       SCOPED_TRACE(name + ", " + element);
