@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <plica/core/each_array.hpp>
@@ -117,7 +118,15 @@ class Archive {
   void field(const std::string& what, const View& view, RowItems items = RowItems::whole) {
     std::size_t row = sizeof(typename View::value_type);
     for (std::size_t k = 1; k < View::rank(); ++k) row *= view.extent(k);
-    field(what, view, RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0, level_});
+    field(what, view,
+          RowsOfField{items, row, view.use_count() > 0 || view.extent(0) > 0, level_, nullptr});
+  }
+  /// Names a device field whose rows have numbers, where several ranks share it.
+  /// @param numbers  null: this process has all rows
+  template <class View>
+  void field(const std::string& what, const View& view, const RowNumbers* numbers) {
+    const std::size_t row = fields::bytes_of(view) / std::max<std::size_t>(1, view.extent(0));
+    field(what, view, RowsOfField{RowItems::numbered, row, true, level_, numbers});
   }
   template <class View>
   void field(const std::string& what, const View& view, const RowsOfField& rows) {

@@ -17,12 +17,16 @@ namespace plica {
 struct RankPart {
   std::vector<int> vertex;  ///< [local vertices] ascending
   std::vector<int> owner;   ///< [local vertices] rank that owns the vertex
-  int first_owned = 0;      ///< first local vertex that the rank owns
-  int last_owned = 0;       ///< local vertex behind the last one that it owns
-  std::vector<int> tet;     ///< [local tetrahedra] ascending
+  /// [ranks + 1] vertices that ranks own: rank r has those from first[r] to before first[r + 1]
+  std::vector<int> first;
+  int first_owned = 0;   ///< first local vertex that the rank owns
+  int last_owned = 0;    ///< local vertex behind the last one that it owns
+  std::vector<int> tet;  ///< [local tetrahedra] ascending
 
   /// Returns the number of vertices that the rank owns.
   int owned() const { return last_owned - first_owned; }
+  /// Returns whether the rank owns a local vertex.
+  bool owns(int v) const { return v >= first_owned && v < last_owned; }
   /// Returns the values of own vertices, of those of all local ones.
   template <class T>
   std::vector<T> of_owned(const std::vector<T>& local) const {

@@ -14,15 +14,24 @@ enum class RowItems {
   slots,     ///< a rank's own slots of nodal elements; they follow those of the rank before it
   contacts,  ///< slots of contact: of each obstacle one for each surface point
   /// slots of contact, of which the field has the surface points' numbers; negative: none
-  points_of_contacts
+  points_of_contacts,
+  numbered  ///< items of any kind, by RowNumbers
+};
+
+/// Numbers of a rank's rows among the rows of all ranks.
+struct RowNumbers {
+  std::vector<int> number;   ///< [rows] -1: a row that is not saved
+  std::vector<char> is_own;  ///< [rows] nonzero where this rank saves the row; one does
+  std::size_t all = 0;       ///< number of rows of all ranks
 };
 
 /// Rows of one field.
 struct RowsOfField {
   RowItems of = RowItems::whole;
-  std::size_t bytes = 0;  ///< size of a row
-  bool present = true;    ///< false: the field is left out on all ranks
-  std::size_t level = 0;  ///< level that the items are of
+  std::size_t bytes = 0;                ///< size of a row
+  bool present = true;                  ///< false: the field is left out on all ranks
+  std::size_t level = 0;                ///< level that the items are of
+  const RowNumbers* numbers = nullptr;  ///< of numbered ones; null: each rank has all rows
 };
 
 /// Maker of whole fields from parts of them, and back. Fields are bytes in the host's memory.

@@ -205,12 +205,18 @@ State<B> sources(const typename B::Exec& exec,
 /// Part of a level on one of several ranks, and its messages.
 template <class B>
 struct RankLevel {
-  Ranks* ranks;                       ///< ranks that share the level
-  RankPart part;                      ///< vertices and elements that this one has
-  Indices<B> number;                  ///< [local vertices] number in the whole mesh
-  std::unique_ptr<Halo<B>> shares;    ///< rows of `partial`, of linear elements; none: nodal ones
-  std::unique_ptr<Halo<B>> vertices;  ///< rows of vertices, of nodal elements
-  std::unique_ptr<Halo<B>> slots;     ///< slots of nodal elements
+  Ranks* ranks;                     ///< ranks that share the level
+  RankPart part;                    ///< vertices and elements that this one has
+  Indices<B> number;                ///< [local vertices] number in the whole mesh
+  std::unique_ptr<Halo<B>> shares;  ///< rows of `partial`, of linear elements; none: nodal ones
+  /// rows of vertices, of nodal elements and with a matrix
+  std::unique_ptr<Halo<B>> vertices;
+  std::unique_ptr<Halo<B>> slots;  ///< slots of nodal elements
+  HaloRows vertex_rows = {};       ///< rows that `vertices` exchanges
+  std::vector<char> given = {};    ///< [local vertices] nonzero: no force moves the vertex
+  /// patches of all tetrahedra at owned vertices, of which the rows of a matrix are assembled
+  Patches<B> around_owned = {};
+  std::vector<int> region_around = {};  ///< region of each of these patches
 };
 
 /// Returns the vertices of a level, of which sums are taken over those that this rank owns.
@@ -219,6 +225,15 @@ Items vertices_of(const LevelData<B>& level) {
   if (!level.ranks) return level.model.vertices;
   const RankPart& part = level.ranks->part;
   return {level.model.vertices, part.first_owned, part.last_owned};
+}
+
+/// Returns the model of which a level's matrix is assembled. On one of several ranks it has all
+/// tetrahedra at owned vertices, as linear ones.
+template <class B>
+Model<B> model_of_matrix(const LevelData<B>& level) {
+  Model<B> model = level.model;
+  if (level.ranks) model.patches = level.ranks->around_owned;
+  return model;
 }
 
 /// Returns the ranks that share a level; null: one process has all of it.
@@ -245,8 +260,8 @@ void complete_shares(const typename B::Exec& exec, const LevelData<B>& level) {
     level.ranks->shares->exchange(exec, level.partial.data(), 3);
 }
 
-/// Receives the values of a field at vertices that other ranks own; of nodal elements. On one
-/// process it does nothing.
+/// Receives the values of a field at vertices that other ranks own; of nodal elements and with a
+/// matrix. On one process it does nothing.
 template <class B>
 void share_vertices(const typename B::Exec& exec, const LevelData<B>& level,
                     const Vectors<B>& field) {

@@ -4,6 +4,7 @@
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/elastic/viscosity.hpp>
 #include <plica/kernels/elastic/relaxed_stress.hpp>
+#include <plica/kernels/halo.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -94,10 +95,10 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   steps_.backward_euler = rule == "backward_euler";
   const bool nodal = level.model.rows.slices > 0;
   const std::vector<int> regions = regions_of_sets(mesh, level);
-  constants_ = nodal ? level.model.rows.constants : level.model.patches.constants;
-  set_region_ = to_device<Indices<B>>("viscosity.set_region", regions);
-  whole_ = to_device<Scalars<B>>("viscosity.whole", host_values(Exec(), constants_));
-  half_ = constants_of_sets<B>("viscosity.half", regions, constants.half);
+  forces_ = sets_of(nodal ? level.model.rows.constants : level.model.patches.constants, regions,
+                    constants);
+  if (!nodal && level.ranks)
+    matrix_ = sets_of(level.ranks->around_owned.constants, level.ranks->region_around, constants);
   isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
   const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots()
                                                     : level.model.patches.packs * B::lanes);
@@ -108,6 +109,14 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
                                     slots * 6 * static_cast<std::size_t>(1 + stress.terms));
   stress.relaxed = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
   stepped_ = none;
+}
+
+template <class B>
+auto Viscosity<B>::sets_of(const Scalars<B>& constants, const std::vector<int>& regions,
+                           const ShapeConstants& shape) -> Sets {
+  return {constants, to_device<Indices<B>>("viscosity.set_region", regions),
+          to_device<Scalars<B>>("viscosity.whole", host_values(Exec(), constants)),
+          constants_of_sets<B>("viscosity.half", regions, shape.half)};
 }
 
 /// Computes the values of steps_ for a time t [s] after that of the memory.
@@ -147,12 +156,17 @@ template <class B>
 void Viscosity<B>::take_share(const Exec& exec, double t) {
   if (t == shared_) return;
   step_over(exec, t), shared_ = t;
-  const auto sets = static_cast<int>(set_region_.extent(0)),
-             count = static_cast<int>(constants_.extent(0));
+  scale(exec, forces_), scale(exec, matrix_);
+}
+
+template <class B>
+void Viscosity<B>::scale(const Exec& exec, const Sets& of) const {
+  const auto sets = static_cast<int>(of.region.extent(0)),
+             count = static_cast<int>(of.constants.extent(0));
   if (sets == 0) return;  // one of several ranks may have no element
   update_vertices<B>(
       exec, "plica::scale_shape", count,
-      ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});
+      ScaleShape<B>{of.whole, of.half, of.constants, steps_.share, of.region, count / sets});
 }
 
 template <class B>
@@ -160,7 +174,9 @@ void Viscosity<B>::name_fields(Archive<B>& archive, const LevelData<B>& level,
                                const std::string& name) {
   archive.field(name + "memory of stress", level.stress.memory, RowItems::elements);
   archive.number(time_);
-  archive.owns(level.stress, steps_, constants_, set_region_, whole_, half_, isochoric_);
+  for (const Sets* sets : {&forces_, &matrix_})
+    archive.owns(sets->constants, sets->region, sets->whole, sets->half);
+  archive.owns(level.stress, steps_, isochoric_);
   if (archive.restoring()) looked_ = none;
 }
 

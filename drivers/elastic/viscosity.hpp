@@ -49,15 +49,22 @@ class Viscosity {
   static constexpr double none = -1;
 
   RelaxationSteps<B> steps_;
-  Scalars<B> constants_;     ///< the model's own constants, in sets
-  Indices<B> set_region_;    ///< [sets] region of each set
-  Scalars<B> whole_, half_;  ///< constants with all and with half of the energy of shape
+  /// Constants of a model, in sets, that are scaled.
+  struct Sets {
+    Scalars<B> constants;    ///< the model's own
+    Indices<B> region;       ///< [sets] region of each set
+    Scalars<B> whole, half;  ///< constants with all and with half of the energy of shape
+  };
+  Sets forces_, matrix_;  ///< of forces; of a rank's matrix, where it has other elements
   Scalars<B> isochoric_;
   double time_ = 0;        ///< time of the memory [s]
   double shared_ = 0;      ///< time since time_ that the model's constants are for [s]
   double stepped_ = none;  ///< time since time_ that steps_ are for [s]
   double looked_ = none;   ///< time since time_ that level.stress.lost is for [s]
 
+  static Sets sets_of(const Scalars<B>& constants, const std::vector<int>& regions,
+                      const ShapeConstants& shape);
+  void scale(const Exec& exec, const Sets& sets) const;
   void step_over(const Exec& exec, double t);
   void take_share(const Exec& exec, double t);
 };

@@ -59,19 +59,40 @@ SlidingVertices<B> sliding_vertices(const LevelConstants& c) {
   return s;
 }
 
+/// Returns patches with what their kernels read.
+/// @param fibres  per tetrahedron; empty: they do not vary within a region
 template <class B>
-void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants,
-                         const LevelConstants& c, BesideNodal beside) {
-  using F = Backend<float, typename B::Exec>;
-  if (beside == BesideNodal::nothing) return;
-  model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
+Patches<B> patches_of(const TetMesh& mesh, const std::vector<std::vector<double>>& material,
+                      const LevelConstants& c, const std::vector<FibreAxes>& fibres,
+                      const std::vector<std::vector<int>>* runs) {
+  Patches<B> patches = build_patches<B>(mesh, material, c.stiffness_damping, runs);
+  if (!fibres.empty()) patches.fibres = device_fibres<B>(patches, mesh, fibres, c.families);
+  return patches;
+}
+
+/// Constants of nodal elements, and whether their pressures are smoothed.
+NodalConstants nodal_constants(const Body& body, const LevelConstants& c) {
+  const bool smoothed = smooths_pressure(body, c.lame);
+  NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
+  for (const Lame<double>& lame : c.lame) {
+    constants.stabiliser.push_back(body.stabilisation * lame.mu);
+    if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
+  }
+  return constants;
+}
+
+/// Rows of nodal elements, of the mesh or of one rank, and the slots that the rank exchanges.
+template <class B>
+NodalPart<B> nodal_rows(const TetMesh& placed, const NodalConstants& constants,
+                        const LevelConstants& c, const LevelPart* part) {
+  NodalPart<B> made;
+  if (part)
+    made = build_nodal_part<B>(placed, constants, c.constrained, part->part);
+  else
+    made.rows = build_nodal_rows<B>(placed, constants, c.constrained);
   if (!c.fibres.empty())
-    model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
-  if (beside == BesideNodal::matrix) return;
-  constants.bulk_excess.clear();
-  model.float_rows = build_nodal_rows<F>(placed, constants, c.constrained);
-  if (!c.fibres.empty())
-    model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres, c.families);
+    made.rows.fibres = device_fibres<B>(made.rows, placed, c.fibres, c.families);
+  return made;
 }
 
 /// Returns the shares of a part's vertices, own ones and those that are received.
@@ -85,64 +106,101 @@ VertexShares<B> shares_of_part(const LevelPart& part) {
           to_device<Indices<B>>("shares.row", row)};
 }
 
+/// Begins what a rank exchanges of a level: the values of vertices.
 template <class B>
-void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
-                  const LevelConstants& c, BesideNodal beside, const LevelPart* part,
-                  HaloRows& slots) {
+std::shared_ptr<RankLevel<B>> rank_level(const LevelPart& part) {
+  auto made = std::make_shared<RankLevel<B>>();
+  made->ranks = part.ranks, made->part = part.part, made->vertex_rows = part.vertices;
+  made->number = to_device<Indices<B>>("level.number", part.part.vertex);
+  if (part.nodal || part.matrix)
+    made->vertices = std::make_unique<Halo<B>>(*part.ranks, part.named("vertices"), part.vertices,
+                                               std::vector{3});
+  return made;
+}
+
+/// Adds the records of slots to what a rank exchanges.
+template <class B>
+void exchange_slots(RankLevel<B>& level, const LevelPart& part, const NodalPart<B>& nodal) {
+  constexpr int record = 12;  // numbers of a slot
+  const bool smoothed = nodal.rows.bulk_excess.extent(0) > 0;
+  level.slots =
+      std::make_unique<Halo<B>>(*part.ranks, part.named("records"), nodal.slots,
+                                smoothed ? std::vector{1, 2, record} : std::vector{record});
+}
+
+/// Adds the patches of which a rank assembles its rows of a matrix.
+template <class B>
+void add_patches_around(RankLevel<B>& level, const LevelPart& part,
+                        const std::vector<std::vector<double>>& material, const LevelConstants& c) {
+  if (!part.matrix) return;
+  const MatrixPart& matrix = *part.matrix;
+  level.around_owned = patches_of<B>(matrix.mesh, material, c, matrix.fibres, &matrix.runs);
+  for (const std::vector<int>& run : matrix.runs)
+    level.region_around.push_back(
+        matrix.mesh.region.empty() ? 0 : matrix.mesh.region[index_of(run.front())]);
+}
+
+template <class B>
+void add_linear_elements(LevelData<B>& level, const TetMesh& placed, const LevelConstants& c,
+                         const LevelPart* part, RankLevel<B>* ranks) {
   Model<B>& model = level.model;
-  if (c.element == Element::linear) {
-    model.patches =
-        build_patches<B>(placed, c.material, c.stiffness_damping, part ? &part->runs : nullptr);
-    if (!c.fibres.empty())
-      model.patches.fibres = device_fibres<B>(model.patches, placed, c.fibres, c.families);
-    model.shares = part ? shares_of_part<B>(*part) : with_followers(model.patches.shares, placed);
-  } else {
-    const bool smoothed = smooths_pressure(body, c.lame);
-    NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
-    for (const Lame<double>& lame : c.lame) {
-      constants.stabiliser.push_back(body.stabilisation * lame.mu);
-      if (smoothed) constants.bulk_excess.push_back(lame.lambda - capped_lambda(lame));
-    }
-    if (part) {
-      auto [rows, halo] = build_nodal_part<B>(placed, constants, c.constrained, part->part);
-      model.rows = rows, slots = std::move(halo);
-    } else {
-      model.rows = build_nodal_rows<B>(placed, constants, c.constrained);
-    }
-    model.shares = with_followers(model.rows.shares, placed);
-    level.nodal = make_nodal_work<B>(model.rows);
-    if (!c.fibres.empty())
-      model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres, c.families);
-    add_preconditioning<B>(model, placed, std::move(constants), c, beside);
+  model.patches = patches_of<B>(placed, c.material, c, c.fibres, part ? &part->runs : nullptr);
+  model.shares = part ? shares_of_part<B>(*part) : with_followers(model.patches.shares, placed);
+  level.partial = zeros<Vectors<B>>("plica::work.partial", model.shares.rows);
+  if (!part) return;
+  // rows of `partial` are received in place
+  ranks->shares = std::make_unique<Halo<B>>(*part->ranks, part->named("shares"), part->shares,
+                                            std::vector{3}, level.partial.data());
+  add_patches_around(*ranks, *part, c.material, c);
+}
+
+template <class B>
+void add_nodal_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
+                        const LevelConstants& c, BesideNodal beside, const LevelPart* part,
+                        RankLevel<B>* ranks) {
+  using F = Backend<float, typename B::Exec>;
+  Model<B>& model = level.model;
+  NodalConstants constants = nodal_constants(body, c);
+  const NodalPart<B> nodal = nodal_rows<B>(placed, constants, c, part);
+  model.rows = nodal.rows;
+  model.shares = with_followers(model.rows.shares, placed);
+  level.nodal = make_nodal_work<B>(model.rows);
+  if (part) exchange_slots(*ranks, *part, nodal);
+  if (beside != BesideNodal::nothing) {
+    if (!part)
+      model.patches = patches_of<B>(placed, constants.material, c, c.fibres, nullptr);
+    else
+      add_patches_around(*ranks, *part, constants.material, c);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial",
                                     std::max(model.shares.rows, model.patches.shares.rows));
-  if (!allows_inversion(body.material))
-    level.flags = make_element_flags<B>(c.element == Element::linear ? model.patches.count
-                                                                     : model.rows.slices);
+  if (beside != BesideNodal::matrix_and_rows) return;
+  constants.bulk_excess.clear();
+  const NodalPart<F> in_float = nodal_rows<F>(placed, constants, c, part);
+  model.float_rows = in_float.rows;
+  if (!part) return;
+  const auto float_ranks = rank_level<F>(*part);
+  exchange_slots(*float_ranks, *part, in_float);
+  level.float_ranks = float_ranks;
 }
 
-/// Makes the messages of a part. Rows of `partial` are received in place.
+/// Adds elements, and what several ranks exchange of them.
 template <class B>
-std::shared_ptr<const RankLevel<B>> rank_level(const LevelPart& part, const LevelData<B>& level,
-                                               Element element, const HaloRows& slots) {
-  auto made = std::make_shared<RankLevel<B>>(RankLevel<B>{
-      part.ranks, part.part, to_device<Indices<B>>("level.number", part.part.vertex), {}, {}, {}});
-  Ranks& ranks = *part.ranks;
-  const std::string of_level = " of level " + std::to_string(part.number);
-  if (element == Element::linear) {
-    made->shares = std::make_unique<Halo<B>>(ranks, "shares" + of_level, part.shares,
-                                             std::vector{3}, level.partial.data());
-    return made;
-  }
-  constexpr int record = 12;  // numbers of a slot
-  const bool smoothed = level.model.rows.bulk_excess.extent(0) > 0;
-  made->vertices =
-      std::make_unique<Halo<B>>(ranks, "vertices" + of_level, part.vertices, std::vector{3});
-  made->slots =
-      std::make_unique<Halo<B>>(ranks, "records" + of_level, slots,
-                                smoothed ? std::vector{1, 2, record} : std::vector{record});
-  return made;
+void add_elements(LevelData<B>& level, const Body& body, const TetMesh& placed,
+                  const LevelConstants& c, BesideNodal beside, const LevelPart* part) {
+  std::shared_ptr<RankLevel<B>> ranks = part ? rank_level<B>(*part) : nullptr;
+  const bool linear = c.element == Element::linear;
+  if (linear)
+    add_linear_elements<B>(level, placed, c, part, ranks.get());
+  else
+    add_nodal_elements<B>(level, body, placed, c, beside, part, ranks.get());
+  if (ranks)
+    for (std::size_t v = 0; v < c.mass.size(); ++v)
+      ranks->given.push_back(c.constrained[v] || !(c.mass[v] > 0));
+  level.ranks = ranks;
+  if (!allows_inversion(body.material))
+    level.flags =
+        make_element_flags<B>(linear ? level.model.patches.count : level.model.rows.slices);
 }
 
 }  // namespace
@@ -156,9 +214,7 @@ LevelData<B> build_level(const Body& body, const TetMesh& placed, const LevelCon
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.followers = following_vertices<B>(placed);
-  HaloRows slots;
-  add_elements(level, body, placed, c, beside, part, slots);
-  if (part) level.ranks = rank_level(*part, level, c.element, slots);
+  add_elements(level, body, placed, c, beside, part);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());

@@ -271,7 +271,8 @@ void Level<B>::assemble(const State<B>& at, const ImplicitWeights& weights, bool
                         const PatchPairs<B>& pairs, const Blocks9<B>& shares,
                         const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
-  elasticity_->blocks(exec, this->model, pairs, at.u, weights, projected, shares, A);
+  share_vertices<B>(exec, *this, at.u);
+  elasticity_->blocks(exec, model_of_matrix<B>(*this), pairs, at.u, weights, projected, shares, A);
   for (const auto& term : terms) term->add_blocks(exec, at, weights.a, A);
   if (contact_) response_.add_matrix(exec, *this, 1, A);
   if (external_)

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstring>
 #include <plica/core/grouping.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/drivers/elastic/build_patches.hpp>
+#include <plica/drivers/level/matrix_part.hpp>
 #include <plica/drivers/level/part_of_level.hpp>
+#include <plica/drivers/level/rank_lists.hpp>
 #include <set>
 #include <utility>
 
 namespace plica {
-
-namespace {
-
-int owner_in(const std::vector<int>& first, int number) {
-  return static_cast<int>(std::ranges::upper_bound(first, number) - first.begin()) - 1;
-}
-
-}  // namespace
 
 int RankRanges::owner(int v) const { return owner_in(vertex, v); }
 int RankRanges::owner_of_run(int p) const { return owner_in(run, p); }
@@ -51,66 +44,6 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 
 namespace {
 
-/// Rows of the patches of a whole mesh: each run has a row for each of its vertices, ascending.
-struct SharedRows {
-  std::vector<int> vertex;    ///< [rows]
-  std::vector<int> first{0};  ///< [ranks + 1] first row of each rank
-
-  SharedRows(const TetMesh& mesh, const std::vector<std::vector<int>>& runs,
-             const RankRanges& ranges) {
-    for (int r = 0; r < ranges.ranks(); ++r) {
-      for (int p = ranges.run[index_of(r)]; p < ranges.run[index_of(r + 1)]; ++p) {
-        std::vector<int> corners;
-        for (const int e : runs[index_of(p)])
-          for (const int v : mesh.tets[index_of(e)]) corners.push_back(v);
-        std::ranges::sort(corners);
-        const auto repeated = std::ranges::unique(corners);
-        vertex.insert(vertex.end(), corners.begin(), repeated.begin());
-      }
-      first.push_back(static_cast<int>(vertex.size()));
-    }
-  }
-  int rank(int row) const { return owner_in(first, row); }
-};
-
-/// Lists of what goes to each rank, or comes from it.
-class ByRank {
- public:
-  explicit ByRank(int ranks) : all_(index_of(ranks)) {}
-  void add(int rank, int row) { all_[index_of(rank)].push_back(row); }
-  std::vector<int>& of(int rank) { return all_[index_of(rank)]; }
-
-  static HaloRows halo(const ByRank& sent, const ByRank& received) {
-    HaloRows rows;
-    for (std::size_t q = 0; q < sent.all_.size(); ++q) {
-      if (sent.all_[q].empty() && received.all_[q].empty()) continue;
-      rows.rank.push_back(static_cast<int>(q));
-      rows.sent.insert(rows.sent.end(), sent.all_[q].begin(), sent.all_[q].end());
-      rows.first_sent.push_back(static_cast<int>(rows.sent.size()));
-      rows.first_received.push_back(rows.first_received.back() +
-                                    static_cast<int>(received.all_[q].size()));
-    }
-    return rows;
-  }
-
- private:
-  std::vector<std::vector<int>> all_;
-};
-
-/// Local numbers of a part's vertices.
-class LocalNumbers {
- public:
-  LocalNumbers(const RankPart& part, std::size_t vertices) : of_(vertices, -1) {
-    for (std::size_t i = 0; i < part.vertex.size(); ++i)
-      of_[index_of(part.vertex[i])] = static_cast<int>(i);
-  }
-  int operator()(int v) const { return of_[index_of(v)]; }
-  bool has(int v) const { return of_[index_of(v)] >= 0; }
-
- private:
-  std::vector<int> of_;
-};
-
 /// Makes the part's lists of vertices from marks on those of the whole mesh.
 void list_vertices(RankPart& part, const std::vector<char>& is_local, const RankRanges& ranges,
                    int own) {
@@ -123,22 +56,9 @@ void list_vertices(RankPart& part, const std::vector<char>& is_local, const Rank
       static_cast<int>(std::ranges::upper_bound(part.owner, own) - part.owner.begin());
 }
 
-TetMesh mesh_of_part(const TetMesh& mesh, const RankPart& part, const LocalNumbers& local) {
-  TetMesh own;
-  own.vertices = part.local(mesh.vertices);
-  own.region_names = mesh.region_names;
-  for (const int e : part.tet) {
-    auto& corners = own.tets.emplace_back(mesh.tets[index_of(e)]);
-    for (int& v : corners) v = local(v);
-    if (!mesh.region.empty()) own.region.push_back(mesh.region[index_of(e)]);
-    if (!mesh.filled.empty()) own.filled.push_back(mesh.filled[index_of(e)]);
-  }
-  return own;
-}
-
 /// Part of a rank with linear elements.
 LevelPart linear_part(const TetMesh& mesh, const std::vector<std::vector<int>>& runs,
-                      const RankRanges& ranges, int own) {
+                      const RankRanges& ranges, int own, bool matrix) {
   const SharedRows rows(mesh, runs, ranges);
   const int first = rows.first[index_of(own)], last = rows.first[index_of(own + 1)];
   LevelPart made;
@@ -147,6 +67,8 @@ LevelPart linear_part(const TetMesh& mesh, const std::vector<std::vector<int>>& 
   std::fill(is_local.begin() + ranges.vertex[index_of(own)],
             is_local.begin() + ranges.vertex[index_of(own + 1)], 1);
   for (int i = first; i < last; ++i) is_local[index_of(rows.vertex[index_of(i)])] = 1;
+  const std::vector<char> has_shares = is_local;
+  if (matrix) mark_neighbours(mesh, ranges, own, is_local);
   list_vertices(part, is_local, ranges, own);
   const LocalNumbers local(part, mesh.vertices.size());
 
@@ -156,13 +78,13 @@ LevelPart linear_part(const TetMesh& mesh, const std::vector<std::vector<int>>& 
   for (int p = ranges.run[index_of(own)]; p < ranges.run[index_of(own + 1)]; ++p)
     for (std::vector<int>& run = made.runs.emplace_back(runs[index_of(p)]); int& e : run)
       e = static_cast<int>(std::ranges::lower_bound(part.tet, e) - part.tet.begin());
-  made.mesh = mesh_of_part(mesh, part, local);
+  made.mesh = mesh_of_part(mesh, part, part.tet, local);
 
   ByRank sent(ranges.ranks()), received(ranges.ranks());
   int next = last - first;  // the next received row
   for (int i = 0; i < static_cast<int>(rows.vertex.size()); ++i) {
     const int v = rows.vertex[index_of(i)];
-    if (!local.has(v)) continue;
+    if (!has_shares[index_of(v)]) continue;
     const bool is_own = i >= first && i < last;
     made.share_vertex.push_back(local(v));
     made.share_row.push_back(is_own ? i - first : next++);
@@ -178,6 +100,7 @@ LevelPart linear_part(const TetMesh& mesh, const std::vector<std::vector<int>>& 
   }
   made.shares = ByRank::halo(sent, received);
   made.shares.own = last - first;
+  if (matrix) made.vertices = rows_of_neighbours(mesh, runs, ranges, own, part);
   return made;
 }
 
@@ -203,7 +126,7 @@ LevelPart nodal_part(const TetMesh& mesh, const RankRanges& ranges, int own) {
   }
   list_vertices(part, is_local, ranges, own);
   const LocalNumbers local(part, mesh.vertices.size());
-  made.mesh = mesh_of_part(mesh, part, local);
+  made.mesh = mesh_of_part(mesh, part, part.tet, local);
   for (std::size_t i = 0; i < part.vertex.size(); ++i)
     if (part.owner[i] != own) received.add(part.owner[i], static_cast<int>(i));
   for (int q = 0; q < ranges.ranks(); ++q) {
@@ -221,9 +144,12 @@ LevelPart nodal_part(const TetMesh& mesh, const RankRanges& ranges, int own) {
 
 LevelPart part_of_level(const TetMesh& mesh, Element element,
                         const std::vector<std::vector<int>>& runs, const RankRanges& ranges,
-                        int own) {
-  return element == Element::linear ? linear_part(mesh, runs, ranges, own)
-                                    : nodal_part(mesh, ranges, own);
+                        int own, bool matrix) {
+  LevelPart made = element == Element::linear ? linear_part(mesh, runs, ranges, own, matrix)
+                                              : nodal_part(mesh, ranges, own);
+  made.part.first = ranges.vertex, made.nodal = element == Element::nodal;
+  if (matrix) made.matrix = matrix_part(mesh, runs, made.part);
+  return made;
 }
 
 std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
@@ -231,10 +157,11 @@ std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
   return element_runs(mesh, P::capacity, P::vertex_capacity);
 }
 
-LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block) {
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block,
+                        bool matrix) {
   const auto runs = runs_of_patches(mesh);
   RankRanges ranges = rank_ranges(mesh, runs, ranks.count(), block);
-  LevelPart made = part_of_level(mesh, element, runs, ranges, ranks.own());
+  LevelPart made = part_of_level(mesh, element, runs, ranges, ranks.own(), matrix);
   made.ranks = &ranks, made.ranges = std::move(ranges);
   return made;
 }
@@ -243,13 +170,12 @@ int ReadVertices::place(int v) const {
   return static_cast<int>(std::ranges::lower_bound(vertex, v) - vertex.begin());
 }
 
-ReadVertices read_vertices(const LevelPart& of, std::vector<int> read) {
-  Ranks& ranks = *of.ranks;
+ReadVertices read_vertices(Ranks& ranks, const RankPart& of, std::vector<int> read) {
   std::ranges::sort(read);
   read.erase(std::ranges::unique(read).begin(), read.end());
   std::vector<std::vector<int>> asked(index_of(ranks.count()));
-  for (const int v : read) asked[index_of(of.ranges.owner(v))].push_back(v);
-  const int first = of.ranges.vertex[index_of(ranks.own())] - of.part.first_owned;
+  for (const int v : read) asked[index_of(owner_in(of.first, v))].push_back(v);
+  const int first = of.first[index_of(ranks.own())] - of.first_owned;
   const auto local = [&](std::vector<int> numbers) {
     for (int& v : numbers) v -= first;
     return numbers;
@@ -257,18 +183,10 @@ ReadVertices read_vertices(const LevelPart& of, std::vector<int> read) {
   ReadVertices made;
   made.own = local(std::exchange(asked[index_of(ranks.own())], {}));
   made.rows.own = static_cast<int>(made.own.size());
-  std::vector<Bytes> messages;
-  for (const std::vector<int>& numbers : asked) {
-    const auto bytes = std::as_bytes(std::span(numbers));
-    messages.emplace_back(bytes.begin(), bytes.end());
-  }
-  const std::vector<Bytes> wanted = ranks.to_all(messages);
+  const std::vector<std::vector<int>> wanted = exchange_numbers(ranks, asked);
   ByRank sent(ranks.count()), received(ranks.count());
   for (int q = 0; q < ranks.count(); ++q) {
-    std::vector<int> numbers(wanted[index_of(q)].size() / sizeof(int));
-    if (!numbers.empty())
-      std::memcpy(numbers.data(), wanted[index_of(q)].data(), numbers.size() * sizeof(int));
-    sent.of(q) = local(std::move(numbers)), received.of(q) = asked[index_of(q)];
+    sent.of(q) = local(wanted[index_of(q)]), received.of(q) = asked[index_of(q)];
     if (q < ranks.own()) made.rows.before += static_cast<int>(asked[index_of(q)].size());
   }
   HaloRows rows = ByRank::halo(sent, received);
@@ -353,67 +271,6 @@ std::vector<HeldSet> held_by_part(const std::vector<HeldSet>& whole, const RankP
         own.vertex.push_back(v), own.share.push_back(set.share[i]);
   }
   return all;
-}
-
-namespace {
-
-/// Counts of what ranks send to each other.
-struct PlanCounts {
-  std::vector<RankPlan>& plans;
-  std::set<std::pair<int, int>> neighbours = {};  ///< receiver and sender
-
-  void add(int from, int to) {
-    ++plans[index_of(from)].sent, ++plans[index_of(to)].received;
-    if (neighbours.emplace(to, from).second) ++plans[index_of(to)].neighbours;
-  }
-};
-
-void count_linear(const TetMesh& mesh, const std::vector<std::vector<int>>& runs,
-                  const RankRanges& ranges, std::vector<RankPlan>& plans) {
-  const SharedRows rows(mesh, runs, ranges);
-  const Grouping of_vertex(rows.vertex, mesh.vertices.size());
-  PlanCounts counts{plans};
-  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
-    const int owner = ranges.owner(v);
-    std::set<int> users{owner};
-    for (const int row : of_vertex.of(index_of(v))) users.insert(rows.rank(row));
-    if (users.size() == 1) continue;
-    for (const int q : users) plans[index_of(q)].copies += q != owner;
-    for (const int row : of_vertex.of(index_of(v)))
-      for (const int q : users)
-        if (const int from = rows.rank(row); q != from) counts.add(from, q);
-  }
-}
-
-void count_nodal(const TetMesh& mesh, const RankRanges& ranges, std::vector<RankPlan>& plans) {
-  std::vector<std::set<int>> users(mesh.vertices.size());  // other ranks that read the vertex
-  for (const auto& t : mesh.tets)
-    for (const int v : t)
-      for (const int other : t)
-        if (const int q = ranges.owner(other); q != ranges.owner(v)) users[index_of(v)].insert(q);
-  PlanCounts counts{plans};
-  for (int v = 0; v < static_cast<int>(users.size()); ++v)
-    for (const int q : users[index_of(v)])
-      counts.add(ranges.owner(v), q), ++plans[index_of(q)].copies;
-}
-
-}  // namespace
-
-std::vector<RankPlan> plan_ranks(const TetMesh& mesh, Element element,
-                                 const std::vector<std::vector<int>>& runs, int ranks, int block) {
-  const RankRanges ranges = rank_ranges(mesh, runs, ranks, block);
-  std::vector<RankPlan> plans(index_of(ranks));
-  for (int r = 0; r < ranks; ++r) {
-    RankPlan& plan = plans[index_of(r)];
-    for (int p = ranges.run[index_of(r)]; p < ranges.run[index_of(r + 1)]; ++p)
-      plan.tets += std::ssize(runs[index_of(p)]);
-    plan.vertices = ranges.vertex[index_of(r + 1)] - ranges.vertex[index_of(r)];
-  }
-  if (element == Element::linear)
-    count_linear(mesh, runs, ranges, plans);
-  else
-    count_nodal(mesh, ranges, plans);
-  return plans;
 }
 
 }  // namespace plica

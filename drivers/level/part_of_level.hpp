@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <plica/core/rank_part.hpp>
 #include <plica/core/ranks.hpp>
 #include <plica/drivers/elastic/level_constants.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 // How a mesh is shared out to ranks. Each rank knows the whole mesh during set-up, and finds what
@@ -28,11 +30,22 @@ struct RankRanges {
 RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>& runs, int ranks,
                        int block = 512);
 
+/// All tetrahedra at the vertices that a rank owns, of which it assembles the rows of a matrix.
+/// Elements at the border are in the parts of several ranks, so that no block is sent.
+struct MatrixPart {
+  std::vector<int> tet;  ///< numbers in the whole mesh, ascending
+  TetMesh mesh;          ///< of these, with the local numbers of the part's vertices
+  /// what each run of the whole mesh has of them
+  std::vector<std::vector<int>> runs;
+  std::vector<FibreAxes> fibres;  ///< per tetrahedron; empty: see LevelConstants
+};
+
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
   Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
   RankRanges ranges;       ///< vertices and runs of each of them
   int number = 0;          ///< number of the level, which messages name
+  bool nodal = false;      ///< kind of its elements
   RankPart part;           ///< numbers of its vertices and tetrahedra
   TetMesh mesh;            ///< vertices and tetrahedra of the part, with local numbers
   /// own runs, of local tetrahedra; of linear elements
@@ -40,18 +53,26 @@ struct LevelPart {
   HaloRows shares;  ///< rows of `partial`, of linear elements
   /// Vertex and row of each share in the order in which a vertex adds them, of linear elements
   std::vector<int> share_vertex, share_row;
-  HaloRows vertices;  ///< rows of vertices, of nodal elements
+  HaloRows vertices;  ///< rows of vertices, of nodal elements and with a matrix
+  std::optional<MatrixPart> matrix;
+
+  /// Returns a name for messages of the level.
+  std::string named(const char* what) const {
+    return std::string(what) + " of level " + std::to_string(number);
+  }
 };
 
 /// Returns the part of rank `own`.
 ///
 /// Linear elements: the tetrahedra of own runs, with their vertices and all owned ones. Nodal ones:
-/// all tetrahedra at owned vertices.
+/// all tetrahedra at owned vertices. A matrix adds the neighbours of owned vertices.
+/// @param matrix  whether matrices of the level are assembled
 LevelPart part_of_level(const TetMesh& mesh, Element element,
                         const std::vector<std::vector<int>>& runs, const RankRanges& ranges,
-                        int own);
+                        int own, bool matrix = false);
 /// Returns this rank's part of a level in a simulation of several ranks.
-LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block = 512);
+LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block = 512,
+                        bool matrix = false);
 
 /// Returns the constants of the part's vertices and tetrahedra.
 LevelConstants constants_of_part(const LevelConstants& whole, const RankPart& part);
@@ -74,7 +95,7 @@ struct ReadVertices {
 /// Finds what each rank sends of a shared level. All ranks call this.
 /// @param of    this rank's part of the level
 /// @param read  vertices that this rank reads, by their numbers in the whole mesh, in any order
-ReadVertices read_vertices(const LevelPart& of, std::vector<int> read);
+ReadVertices read_vertices(Ranks& ranks, const RankPart& of, std::vector<int> read);
 
 /// Returns the rows of an embedding for a part's vertices; null: for all.
 Embedding embedding_of_part(const Embedding& whole, const RankPart* part);

@@ -46,9 +46,9 @@ struct PairsOfPatch {
 template <class B>
 class PatternBuilder {
  public:
-  explicit PatternBuilder(const Model<B>& model)
+  PatternBuilder(const Model<B>& model, const Items& rows)
       : vertices_(model.vertices),
-        is_free_(free_or_following(model)),
+        is_free_(free_or_following(model, rows)),
         first_pack_(on_host(model.patches.first_pack)),
         first_vertex_(on_host(model.patches.first_vertex)),
         vertex_(on_host(model.patches.vertex)),
@@ -85,7 +85,8 @@ class PatternBuilder {
   template <class View>
   using Host = decltype(on_host(std::declval<View>()));
   int vertices_;
-  std::vector<char> is_free_;  // [vertices] 1 where forces move a vertex, or it follows others
+  // [vertices] 1 where forces move an owned vertex, or it follows others
+  std::vector<char> is_free_;
   Host<Indices<B>> first_pack_, first_vertex_, vertex_;
   Host<decltype(Patches<B>::corner)> corner_;
   Host<Indices<B>> element_;
@@ -98,11 +99,12 @@ class PatternBuilder {
   std::vector<std::uint16_t> slot_;
   std::vector<int> first_share_{0}, shared_place_;
 
-  static std::vector<char> free_or_following(const Model<B>& model) {
+  static std::vector<char> free_or_following(const Model<B>& model, const Items& rows) {
     const auto inverse_mass = on_host(model.inverse_mass);
     const auto follower = on_host(model.followers.place.target);
     std::vector<char> free;
-    for (int a = 0; a < model.vertices; ++a) free.push_back(inverse_mass(a) > 0);
+    for (int a = 0; a < model.vertices; ++a)
+      free.push_back(inverse_mass(a) > 0 && a >= rows.first && a < rows.last);
     for (int i = 0; i < model.followers.place.rows; ++i) free[index_of(follower(i))] = 1;
     return free;
   }
@@ -218,8 +220,8 @@ class PatternBuilder {
 }  // namespace
 
 template <class B>
-BlockPattern<B> block_pattern(const Model<B>& model) {
-  return PatternBuilder<B>(model).finish();
+BlockPattern<B> block_pattern(const Model<B>& model, const Items& rows) {
+  return PatternBuilder<B>(model, rows).finish();
 }
 
 template <class B>
@@ -244,7 +246,7 @@ RowMatrix motion_of_free(const Model<B>& model) {
 
 #define PLICA_INSTANTIATE(Real, Exec)                                            \
   template BlockPattern<Backend<Real, Exec>> block_pattern<Backend<Real, Exec>>( \
-      const Model<Backend<Real, Exec>>&);                                        \
+      const Model<Backend<Real, Exec>>&, const Items&);                          \
   template RowMatrix motion_of_free<Backend<Real, Exec>>(const Model<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -3,6 +3,7 @@
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/spaces/row_matrix.hpp>
+#include <plica/kernels/reduce.hpp>
 #include <vector>
 
 namespace plica {
@@ -28,9 +29,11 @@ struct BlockPattern {
 };
 
 /// Returns the pattern of a model's matrix.
-/// A row of a vertex with a zero inverse mass has only its own block, unless it follows others.
+/// A row of a vertex with a zero inverse mass has only its own block, unless it follows others. So
+/// has the row of a vertex that another rank owns.
+/// @param rows  vertices, and which of them this process owns
 template <class B>
-BlockPattern<B> block_pattern(const Model<B>& model);
+BlockPattern<B> block_pattern(const Model<B>& model, const Items& rows);
 
 /// Returns T, [vertices x vertices]: u = T y is the motion of all vertices from that of those which
 /// forces move. Vertices whose motion is given have an empty row and column, followers an empty

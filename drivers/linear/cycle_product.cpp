@@ -19,6 +19,7 @@ CycleProduct<B>::CycleProduct(const LevelData<B>& level, std::string_view materi
   model.vertices = n;
   model.rows = level.model.float_rows;
   model.shares = model.rows.shares;
+  level_.ranks = level.float_ranks;
   model.mass = zeros<Scalars<F>>("plica::cycle.mass", n);
   model.damping.everywhere = static_cast<float>(level.model.damping.everywhere);
   model.damping.of_vertex =

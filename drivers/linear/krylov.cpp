@@ -58,7 +58,7 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system,
   if (preconditioner) {
     preconditioner->apply(exec, r, z_);
     system.hold(exec, z_);
-    dot<B>(exec, "plica::cg_product", r, z_, sums_, slot(product));
+    reduce<B, 1>(exec, "plica::cg_product", system.items(), Dot<B>{r, z_}, sums_, slot(product));
   }
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});
   system.product(exec, p_, q_, sums_, slot(cg::curvature), CgStep<B>{scalars_, product});

@@ -101,15 +101,9 @@ bool solves_loosely(const Problem& problem, std::size_t level) {
 }  // namespace
 
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host,
-                                      std::string solver, double critical_step, bool on_ranks) {
+                                      std::string solver, double critical_step) {
   LinearSolverParts parts{problem.integration.implicit, {}, problem.body.material.model};
   ImplicitOptions& o = parts.options;
-  if (on_ranks) {
-    o.solver = solver == "auto" ? ConjugateGradients::name : std::move(solver);
-    if (o.preconditioner == "auto") o.preconditioner = BlockJacobi::name;
-    if (o.matrix == "auto") o.matrix = "free";
-    return parts;
-  }
   const Body& body = problem.body;
   const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);
   const bool nodal = element_of(body, level) == Element::nodal;

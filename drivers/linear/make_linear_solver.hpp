@@ -9,15 +9,12 @@ namespace plica {
 /// The choice is a direct solver for small meshes where the host can read the matrix. Else it is
 /// conjugate gradients on an assembled matrix, with multigrid where the body has coarser meshes, or
 /// one mesh and long steps. With a fixed number of iterations conjugate gradients are
-/// preconditioned by vertex blocks. On several ranks it is conjugate gradients without a matrix,
-/// preconditioned by vertex blocks; what is chosen by name must run on them, see
-/// refused_by_ranks().
+/// preconditioned by vertex blocks.
+/// @param on_host        whether the host can read all of a matrix: not where several ranks share it
 /// @param solver         a name of the list, or auto
 /// @param critical_step  critical step of the level [s]; 0: not known, and no step is long
-/// @param on_ranks       whether several ranks share the level
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host,
-                                      std::string solver, double critical_step = 0,
-                                      bool on_ranks = false);
+                                      std::string solver, double critical_step = 0);
 
 /// Returns a description such as "conjugate_gradients, multigrid over 3 levels, assembled".
 std::string describe(const LinearSolverParts& parts);

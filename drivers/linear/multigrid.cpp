@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <plica/core/dense.hpp>
 #include <plica/core/row_ranges.hpp>
@@ -36,13 +37,17 @@ bool invert_on_host(int n, double* A) {
 
 template <class B>
 Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers,
-                        int degree, const CycleProduct<B>* finest)
+                        int degree, const CycleProduct<B>* finest, const RankLevel<B>* part)
     : grids_(transfers.size() + 1),
       degree_(degree),
       finest_(finest),
-      sums_(A.rows),
+      shared_(part ? std::make_unique<SharedFinest<F>>() : nullptr),
       scalars_(zeros<Doubles<B>>("plica::multigrid.scalars", 2 * lanczos_steps + 1)) {
-  for (auto& x : lanczos_) x = zeros<Vectors<F>>("plica::multigrid.lanczos", A.rows);
+  // on several ranks a coarser level, which is whole, may have more rows than a part of the finest
+  const int most =
+      transfers.empty() ? A.rows : std::max(A.rows, static_cast<int>(transfers.front().cols()));
+  for (auto& x : lanczos_) x = zeros<Vectors<F>>("plica::multigrid.lanczos", most);
+  sums_ = BlockSums<F>(A.rows, part ? part->ranks : nullptr), coarse_sums_ = BlockSums<F>(most);
   HostPattern pattern = host_pattern(A);
   SlotOrder finer;
   for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -51,6 +56,9 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
       grid.A = {A.rows,   A.first,
                 A.column, A.diagonal,
                 A.place,  zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
+    } else if (i == 1 && shared_) {
+      pattern = shared_->galerkin->pattern();
+      grid.A = block_matrix<F>("multigrid", pattern);
     } else {
       CoarseMatrix<F> coarse = coarse_matrix<F>(pattern, transfers[i - 1]);
       grid.A = coarse.matrix, grid.map = coarse.map, pattern = std::move(coarse.pattern);
@@ -59,8 +67,13 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
     const bool coarsest = i > 0 && i + 1 == grids_.size();
     const HostPattern none = HostPattern::empty(n);
     const HostPattern& stored = by_products(grid) ? none : pattern;
-    SlotOrder order = coarsest ? plain_order(n) : slot_order(stored, PackedRows<F>::height);
-    if (i > 0) {
+    SlotOrder order = coarsest ? plain_order(n) : order_of(grid, stored, part);
+    if (i == 1 && shared_) {
+      const RowMatrix P = by_slots(some_rows(transfers[0], part->part.vertex), finer, order);
+      grids_[0].up = sparse_rows<F>("multigrid.up", P);
+      shared_->restriction = std::make_unique<SharedRestriction<F>>(
+          *part->ranks, part->part, *shared_->coarse, finer, order.vertex);
+    } else if (i > 0) {
       const RowMatrix P = by_slots(transfers[i - 1], finer, order);
       grids_[i - 1].up = sparse_rows<F>("multigrid.up", P);
       grids_[i - 1].down = sparse_rows<F>("multigrid.down", RowMatrix(P.transpose()));
@@ -84,9 +97,40 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
                      by_products(grid) ? vectors("plica::multigrid.product") : SlotVectors<F>()};
     grid.d = zeros<Fours<F>>("plica::multigrid.d", packed.slots());
     grid.e = zeros<Fours<F>>("plica::multigrid.e", packed.slots());
+    if (i == 0 && part) share(*part, pattern, transfers, order);
     finer = std::move(order);
   }
   if (finest_) p_ = zeros<Vectors<F>>("plica::multigrid.p", A.rows);
+}
+
+/// Returns the order of a level's slots.
+template <class B>
+SlotOrder Multigrid<B>::order_of(const Grid& grid, const HostPattern& stored,
+                                 const RankLevel<B>* part) const {
+  constexpr int height = PackedRows<F>::height;
+  return is_shared(grid) ? slot_order(stored, height, part->part, by_products(grid))
+                         : slot_order(stored, height);
+}
+
+/// Makes what the ranks exchange of the finest level.
+template <class B>
+void Multigrid<B>::share(const RankLevel<B>& part, const HostPattern& A,
+                         const std::vector<RowMatrix>& transfers, const SlotOrder& order) {
+  Ranks& ranks = *part.ranks;
+  SharedFinest<F>& shared = *shared_;
+  shared.ranks = &ranks, shared.number = part.number;
+  shared.items = {A.rows(), part.part.first_owned, part.part.last_owned};
+  shared.blocks = numbers_of_blocks(ranks, part.part, part.given, A);
+  shared.vertices =
+      std::make_unique<Halo<F>>(ranks, "vertices of a cycle", part.vertex_rows, std::vector{3});
+  shared.slots = std::make_unique<Halo<F>>(ranks, "slots of a cycle",
+                                           rows_by_slots(part.vertex_rows, part.part, order),
+                                           std::vector{1, 4});
+  if (transfers.empty()) return;
+  shared.coarse =
+      std::make_unique<RowsByRank>(ranks, part.part, RowMatrix(transfers.front().transpose()));
+  shared.galerkin =
+      std::make_unique<SharedGalerkin<F>>(ranks, part.part, A, transfers.front(), *shared.coarse);
 }
 
 template <class B>
@@ -105,7 +149,10 @@ void Multigrid<B>::refit(const Exec& exec) {
   fit_smoother(exec, grids_.front());
   for (std::size_t i = 1; i < grids_.size(); ++i) {
     const Grid& grid = grids_[i];
-    galerkin_product<F>(exec, grid.map, grids_[i - 1].A, grid.A);
+    if (i == 1 && shared_)
+      (*shared_->galerkin)(exec, grids_[0].A, grid.A);
+    else
+      galerkin_product<F>(exec, grid.map, grids_[i - 1].A, grid.A);
     if (!coarser_than(i)) return invert_coarsest(exec);
     update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows,
                        InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
@@ -122,6 +169,7 @@ void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
     return fill(exec, grid.smoother.largest, largest_);
   }
   update_vertices<F>(exec, "plica::pack_scales", packed.slots(), ScaleOfVertex<F>{grid.A, packed});
+  if (is_shared(grid)) shared_->slots->exchange(exec, packed.scale.data(), 1);
   update_vertices<F>(exec, "plica::pack_rows", packed.slots(), PackRow<F>{grid.A, packed});
   update_vertices<F>(exec, "plica::pack_diagonal", packed.slots(),
                      TakeSlotBlocks<F, Blocks<F>>{packed.vertex, grid.inverse_diagonal,
@@ -133,24 +181,28 @@ void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
 /// 1 where nothing is free to move.
 template <class B>
 double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) const {
-  const int n = grid.A.rows;
+  const bool shared = is_shared(grid);
+  const Items n = shared ? shared_->items : Items(grid.A.rows);
+  const BlockSums<F>& sums = &grid == &grids_.front() ? sums_ : coarse_sums_;
   const auto& [r, z, w, last] = lanczos_;
   const auto square = [&](int k) { return Doubles<B>(scalars_.data() + k, 1); };
   const auto alpha = [&](int k) { return Doubles<B>(scalars_.data() + lanczos_steps + 1 + k, 1); };
   const CgSquare<F> size{grid.inverse_diagonal, r, z};
-  update_vertices<F>(exec, "plica::lanczos_start", n, BlockLanczosStart<F>{r});
-  reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
+  update_vertices<F>(exec, "plica::lanczos_start", n.n,
+                     BlockLanczosStart<F>{r, shared ? shared_->number : Indices<F>()});
+  reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums, square(0));
   for (int k = 0; k < lanczos_steps; ++k) {
     const LanczosProduct<F> product{square(k), z, w};
     if (by_products(grid)) {
       finest_->apply(exec, z, w);
-      reduce<F, 1>(exec, "plica::lanczos_product", n, product, sums_, alpha(k));
+      reduce<F, 1>(exec, "plica::lanczos_product", n, product, sums, alpha(k));
     } else {
-      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, product},
-                   sums_, alpha(k));
+      if (shared) shared_->vertices->exchange(exec, z.data(), 3);
+      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, product}, sums,
+                   alpha(k));
     }
     reduce<F, 1>(exec, "plica::lanczos_next", n,
-                 BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
+                 BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums,
                  square(k + 1));
   }
   const std::vector<double> scalars = host_values(exec, scalars_);
@@ -188,6 +240,19 @@ void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, -1});
 }
 
+/// Sets r of the next coarser level from the residual of a level.
+template <class B>
+void Multigrid<B>::restrict_residual(const Exec& exec, std::size_t level,
+                                     const Fours<F>& left) const {
+  const Grid& grid = grids_[level];
+  const auto to = [&](const auto& r) {
+    if (is_shared(grid)) return (*shared_->restriction)(exec, left, r);
+    update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
+                       RestrictFours<F, std::decay_t<decltype(r)>>{grid.down, left, r});
+  };
+  coarser_than(level + 1) ? to(grids_[level + 1].smoother.r) : to(coarsest_r_);
+}
+
 /// Returns an approximation of A^-1 r on a level, in one V-cycle from this level down.
 /// Reads r of the level's smoother, and overwrites it.
 template <class B>
@@ -203,14 +268,7 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec,
   update_vertices<F>(exec, "plica::chebyshev_start", packed.items(),
                      ChebyshevStart<F>{grid.smoother, grid.d});
   if (!coarser_than(level)) return relax(exec, grid, 1, degree_ - 1, Leaves::answer);
-  const Fours<F> left = relax(exec, grid, 1, degree_, Leaves::residual);
-  if (coarser_than(level + 1))
-    update_vertices<F>(
-        exec, "plica::restrict_residual", grid.down.rows,
-        RestrictFours<F, SlotVectors<F>>{grid.down, left, grids_[level + 1].smoother.r});
-  else
-    update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
-                       RestrictFours<F, Vectors<F>>{grid.down, left, coarsest_r_});
+  restrict_residual(exec, level, relax(exec, grid, 1, degree_, Leaves::residual));
   update_vertices<F>(exec, "plica::prolongate", packed.slots(),
                      ChebyshevCorrection<F>{packed.scale, grid.up, cycle(exec, level + 1), grid.d});
   return relax(exec, grid, 0, degree_ - 1, Leaves::answer);
@@ -225,7 +283,10 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, co
   Fours<F> d = grid.d, next = grid.e;
   for (int k = first; k <= last; ++k, std::swap(d, next)) {
     const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
-    if (by_products(grid)) multiply(exec, d);
+    if (by_products(grid))
+      multiply(exec, d);
+    else if (is_shared(grid))
+      shared_->slots->exchange(exec, d.data(), 4);
     update_vertices<F>(exec, "plica::chebyshev", grid.smoother.A.items(),
                        ChebyshevStep<F>{grid.smoother, d, next, k == 0 ? 0.0F : keep_of(k), gain,
                                         k == last ? leaves : Leaves::direction});
@@ -258,8 +319,10 @@ void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>
 template <class B>
 void Multigrid<B>::name_fields(Archive<B>& archive) {
   if (finest_) archive.number(largest_);
-  archive.field("the preconditioner's matrix", grids_.front().A.value);
-  archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal);
+  archive.field("the preconditioner's matrix", grids_.front().A.value,
+                shared_ ? &shared_->blocks : nullptr);
+  archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal,
+                RowItems::vertices);
   archive.owns(grids_, p_, coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_,
                coarsest_x_, lanczos_, sums_.view(), scalars_);
 }

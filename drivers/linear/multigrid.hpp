@@ -3,8 +3,8 @@
 #include <plica/core/archive.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/linear/cycle_product.hpp>
-#include <plica/drivers/linear/host_pattern.hpp>
-#include <plica/drivers/spaces/transfer_matrix.hpp>
+#include <plica/drivers/linear/multigrid_parts.hpp>
+#include <plica/drivers/linear/shared_finest.hpp>
 #include <plica/kernels/linear/chebyshev.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
 #include <plica/kernels/reduce.hpp>
@@ -30,35 +30,6 @@ class Preconditioner {
   virtual void refit(const Exec& exec) = 0;
 };
 
-template <class B>
-struct CoarseMatrix {
-  HostPattern pattern;
-  BlockMatrix<B> matrix;  ///< P^T A P, with all values 0
-  GalerkinMap<B> map;
-};
-
-/// Order of the vertices in the slots of packed rows.
-struct SlotOrder {
-  std::vector<int> vertex;  ///< [slots] vertex of each slot; -1: none
-  std::vector<int> slot;    ///< [vertices] slot of each vertex
-};
-/// Returns an order that within windows of slices puts the longest rows first.
-/// Rows of a slice then have similar lengths, and few entries are filled up.
-SlotOrder slot_order(const HostPattern& A, int height);
-/// Returns the order in which every vertex has the slot of its own number.
-SlotOrder plain_order(int vertices);
-
-/// Allocates packed rows for a matrix of a pattern, in the order slot_order(A, height); for float.
-template <class B>
-PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order);
-/// Returns a matrix with its rows and columns numbered by slots.
-RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& columns);
-
-/// Returns the pattern of P^T A P, and the map by which its blocks follow from those of A.
-/// Each row has its own block in any case.
-template <class B>
-CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
-
 /// Preconditioner of one symmetric V-cycle over the body's meshes, in float.
 /// It has Galerkin matrices P^T A P, Chebyshev polynomials before and after the coarser level
 /// (kernels/linear/chebyshev.hpp), and the dense inverse of the coarsest level. With no coarser
@@ -77,7 +48,8 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 /// The polynomial updates the residual, so that the residual costs no product of its own. The
 /// polynomial reads copies of the matrices in 16 bits a number. All vectors of a cycle are in the
 /// order of the slots of these copies (kernels/linear/packed_rows.hpp). Nothing in a cycle waits
-/// for the device; a fit waits once a level.
+/// for the device; a fit waits once a level. On several ranks each smooths its rows of the finest
+/// level, and coarser levels are whole on each (shared_finest.hpp).
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -89,8 +61,10 @@ class Multigrid final : public Preconditioner<B> {
   /// @param degree     degree of the polynomials, >= 2
   /// @param finest     products with the finest level's matrix, where A is only near it; must
   ///                   outlive the cycle; null: products with A
+  /// @param part       this rank's part of the finest level, of which A is; transfers are of all of
+  ///                   it. Null: one process has all of it
   Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree,
-            const CycleProduct<B>* finest = nullptr);
+            const CycleProduct<B>* finest = nullptr, const RankLevel<B>* part = nullptr);
 
   void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) override;
   void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const override;
@@ -108,22 +82,28 @@ class Multigrid final : public Preconditioner<B> {
   };
   std::vector<Grid> grids_;
   int degree_;
-  const CycleProduct<B>* finest_;  ///< null: products with the matrix that is stored
-  Vectors<F> p_;                   ///< argument of finest_'s products
+  const CycleProduct<B>* finest_;            ///< null: products with the matrix that is stored
+  std::unique_ptr<SharedFinest<F>> shared_;  ///< null: one process has all of the finest level
+  Vectors<F> p_;                             ///< argument of finest_'s products
   /// bound of the eigenvalues of D^-1 A on the finest level until the next fit; only with finest_
   double largest_ = 0;
   DenseInverse<F> coarsest_;
   Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
-  Vectors<F> lanczos_[4];  ///< [vertices of the finest level][3] work space
-  BlockSums<F> sums_;
+  Vectors<F> lanczos_[4];            ///< [vertices of the finest level][3] work space
+  BlockSums<F> sums_, coarse_sums_;  ///< of the finest level; of coarser ones
   Doubles<B> scalars_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
   bool by_products(const Grid& grid) const { return finest_ && &grid == &grids_.front(); }
+  bool is_shared(const Grid& grid) const { return shared_ && &grid == &grids_.front(); }
+  SlotOrder order_of(const Grid& grid, const HostPattern& stored, const RankLevel<B>* part) const;
+  void share(const RankLevel<B>& part, const HostPattern& A,
+             const std::vector<RowMatrix>& transfers, const SlotOrder& order);
   void fit_smoother(const Exec& exec, const Grid& grid) const;
   double largest_eigenvalue(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
+  void restrict_residual(const Exec& exec, std::size_t level, const Fours<F>& left) const;
   Fours<F> cycle(const Exec& exec, std::size_t level) const;
   void multiply(const Exec& exec, const Fours<F>& d) const;
   Fours<F> relax(const Exec& exec, const Grid& grid, int first, int last, Leaves leaves) const;

@@ -3,7 +3,7 @@
 #include <array>
 #include <numeric>
 #include <plica/core/row_ranges.hpp>
-#include <plica/drivers/linear/multigrid.hpp>
+#include <plica/drivers/linear/multigrid_parts.hpp>
 
 namespace plica {
 

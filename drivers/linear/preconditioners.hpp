@@ -23,7 +23,7 @@ std::unique_ptr<Preconditioner<B>> make_cycle(const LinearSolverParts& parts,
                                               StageSystem<B>& system) {
   return std::make_unique<Multigrid<B>>(system.pattern(), transfers,
                                         parts.options.polynomial_degree,
-                                        system.cycle_product(parts.material));
+                                        system.cycle_product(parts.material), system.ranks());
 }
 
 struct ChebyshevPolynomial {

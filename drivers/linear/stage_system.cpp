@@ -21,7 +21,7 @@ StageSystem<B>::StageSystem(const LevelData<B>& level, bool assembled, bool kept
 template <class B>
 const BlockMatrix<B>& StageSystem<B>::pattern() {
   if (pattern_.matrix.rows == 0) {
-    pattern_ = block_pattern<B>(level_->model);
+    pattern_ = block_pattern<B>(model_of_matrix<B>(*level_), items());
     shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
     if (nodal_ && !has_products())
       blocks_of_matrix_ =
@@ -111,6 +111,7 @@ const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) 
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
+  if (!nodal_) share_vertices<B>(exec, *level_, p);  // products of nodal elements do it themselves
   if (by_matrix()) {
     update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{stored(), p, q});
     if (!by_matrix_alone()) follow_masters(exec, level_->model, p);
@@ -125,9 +126,11 @@ template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q,
                              const BlockSums<B>& sums, const Doubles<B>& curvature,
                              const CgStep<B>& then) const {
-  if (by_matrix_alone())
-    return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{stored(), p, q},
+  if (by_matrix_alone()) {
+    share_vertices<B>(exec, *level_, p);
+    return reduce<B, 1>(exec, "plica::block_product", items(), BlockProductDot<B>{stored(), p, q},
                         sums, curvature, then);
+  }
   product(exec, p, q);
   reduce<B, 1>(exec, "plica::curvature", items(), Dot<B>{p, q}, sums, curvature, then);
 }

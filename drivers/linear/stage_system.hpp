@@ -32,12 +32,12 @@ class StageSystem {
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// Takes out of a vector what is along the directions that hold sliding vertices.
   void hold(const Exec& exec, const Vectors<B>& x) const;
-  /// Sets q = A p.
+  /// Sets q = A p. On several ranks q is that of owned vertices, and p is received elsewhere.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
   /// Sets q = A p, sums p.q into `curvature`, and runs `then`, the step that follows from it.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
                const Doubles<B>& curvature, const CgStep<B>& then) const;
-  /// Sets q = A w for all vectors of a space.
+  /// Sets q = A w for all vectors of a space, which are known at all vertices of this process.
   void products(const Exec& exec, const SolutionSpace<B>& space) const;
   /// Returns the inverses of the vertex blocks of A; 0 where the motion is given.
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
@@ -59,6 +59,8 @@ class StageSystem {
   int rows() const { return level_->model.vertices; }
   /// Returns the rows, of which sums are taken over those that this rank owns.
   Items items() const { return vertices_of<B>(*level_); }
+  /// Returns the part that this rank has of the level; null: one process has all of it.
+  const RankLevel<B>* ranks() const { return level_->ranks.get(); }
   /// Returns whether projected tangents are read from where the level keeps them.
   bool reads_kept() const { return nodal_ || (kept_ && !assembled_); }
   void name_fields(Archive<B>& archive) const {

@@ -30,7 +30,7 @@ struct VCycleSolver {
           residual_(zeros<Vectors<B>>("plica::v_cycle.residual", level.model.vertices)),
           scaled_(zeros<Vectors<B>>("plica::v_cycle.scaled", level.model.vertices)),
           squares_(zeros<Doubles<B>>("plica::v_cycle.squares", 2)),
-          sums_(level.model.vertices) {}
+          sums_(level.model.vertices, ranks_of<B>(level)) {}
 
     bool converges() const override { return false; }
     bool reads_kept() const override { return system_.reads_kept(); }
@@ -90,7 +90,7 @@ struct VCycleSolver {
     /// Sets x = C r and returns the relative residual of A x = r.
     double cycle(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) const {
       const auto square = [&](const Vectors<B>& of, int slot) {
-        reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(),
+        reduce<B, 1>(exec, "plica::v_cycle_square", system_.items(),
                      CgSquare<B>{system_.inverse_diagonal(), of, scaled_}, sums_,
                      Doubles<B>(squares_.data() + slot, 1));
       };

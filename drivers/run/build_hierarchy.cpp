@@ -18,9 +18,11 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/level/build_level.hpp>
 #include <plica/drivers/level/surface_of_part.hpp>
+#include <plica/drivers/linear/list.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/loads/dead_loads.hpp>
+#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
@@ -229,7 +231,7 @@ class HierarchyBuilder {
   /// half of them where pressures are smoothed: cmake/docs/results/solvers.md.
   BesideNodal beside_nodal(std::size_t i) const {
     constexpr double thick = 8;  // elements across
-    if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)) || own_.ranks())
+    if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))
       return BesideNodal::nothing;
     // products in float know nothing of vertices that slide or follow others
     if (!constants_[i].sliding.empty() || !built_.meshes[i].followers.vertex.empty())
@@ -238,6 +240,16 @@ class HierarchyBuilder {
                              smooths_pressure(problem_.body, constants_[i].lame) ||
                              elements_across(built_.meshes[i]) >= thick;
     return by_products ? BesideNodal::matrix_and_rows : BesideNodal::matrix;
+  }
+
+  /// Returns whether the systems of a level may need a matrix, or a preconditioner that is made
+  /// from one.
+  bool has_matrix(std::size_t i) const {
+    const ImplicitOptions& o = problem_.integration.implicit;
+    const bool by_products = o.matrix == "free" && o.preconditioner == BlockJacobi::name &&
+                             o.solver != VCycleSolver::name;
+    return !is_explicit(integrator_of(i)) &&
+           !(by_products && integrator_of(i) != VCycleEuler::name);
   }
 
   /// Finds what acts on this rank's part of a level.
@@ -254,7 +266,7 @@ class HierarchyBuilder {
   }
 
   void add_level(std::size_t i) {
-    own_.add(built_.meshes[i], constants_[i]);
+    own_.add(built_.meshes[i], constants_[i], has_matrix(i));
     const LevelPart* const part = own_.part(i);
     if (part) take_part(i);
     LevelData<B> level =
@@ -429,8 +441,8 @@ class HierarchyBuilder {
         std::string solver = implicit.solver;
         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
         if (solver == "auto" && contact_ && contact_->couples()) solver = "conjugate_gradients";
-        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver,
-                                               report.critical_step, own_.ranks() != nullptr);
+        const auto parts = linear_solver_parts(problem_, i, B::on_host && !level.ranks, solver,
+                                               report.critical_step);
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };

@@ -59,6 +59,7 @@ RankFields::LevelItems RankFields::found(RankItems own) const {
 }
 
 bool RankFields::shares(const RowsOfField& rows) const {
+  if (rows.of == RowItems::numbered) return rows.numbers != nullptr;
   return rows.of != RowItems::whole && levels_[rows.level].own.part;
 }
 
@@ -72,6 +73,8 @@ std::size_t RankFields::bytes(const RowsOfField& rows) const {
       return level.elements;
     case RowItems::slots:
       return level.slots * rows.bytes;
+    case RowItems::numbered:
+      return rows.numbers->all * rows.bytes;
     default:
       return index_of(level.own.obstacles) * level.points * rows.bytes;
   }
@@ -96,7 +99,30 @@ RankFields::Field RankFields::owned(const LevelItems& level, const RowsOfField& 
   return of_points;
 }
 
+/// Returns the whole field on rank 0, of rows that each rank sends with their numbers.
+RankFields::Field RankFields::whole_of_numbered(const RowsOfField& rows, const Field& local) const {
+  std::vector<Bytes> sent(index_of(ranks_.count()));
+  const auto add = [&](const void* from, std::size_t size) {
+    const auto* const bytes = static_cast<const std::byte*>(from);
+    sent.front().insert(sent.front().end(), bytes, bytes + size);
+  };
+  for (std::size_t i = 0; i < rows.numbers->number.size(); ++i)
+    if (rows.numbers->is_own[i])
+      add(&rows.numbers->number[i], sizeof(int)), add(&local[i * rows.bytes], rows.bytes);
+  const std::vector<Bytes> received = ranks_.to_all(sent);
+  if (ranks_.own() > 0) return {};
+  Field all(bytes(rows));
+  for (const Bytes& one : received)
+    for (std::size_t at = 0; at < one.size(); at += sizeof(int) + rows.bytes) {
+      int number = 0;
+      std::memcpy(&number, &one[at], sizeof number);
+      std::memcpy(&all[index_of(number) * rows.bytes], &one[at + sizeof number], rows.bytes);
+    }
+  return all;
+}
+
 RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local) const {
+  if (rows.of == RowItems::numbered) return whole_of_numbered(rows, local);
   const LevelItems& level = levels_[rows.level];
   Field own = owned(level, rows, local);
   if (rows.of == RowItems::points_of_contacts)
@@ -126,6 +152,14 @@ RankFields::Field RankFields::whole(const RowsOfField& rows, const Field& local)
 }
 
 RankFields::Field RankFields::local(const RowsOfField& rows, const unsigned char* whole) const {
+  if (rows.of == RowItems::numbered) {
+    const std::vector<int>& numbers = rows.numbers->number;
+    Field own(numbers.size() * rows.bytes);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i] >= 0)
+        std::memcpy(&own[i * rows.bytes], whole + index_of(numbers[i]) * rows.bytes, rows.bytes);
+    return own;
+  }
   const LevelItems& level = levels_[rows.level];
   const RankItems& own = level.own;
   if (rows.of == RowItems::elements)

@@ -22,6 +22,7 @@ struct RankItems {
 ///   vertices   | owned by rank 0 | by rank 1 | ...       a rank has these and copies of others
 ///   elements   | packs of rank 0 | of rank 1 | ...       a rank has just these
 ///   slots      | slots of rank 0 | of rank 1 | ...       likewise
+///   numbered   rows with numbers, in their order
 ///   contacts   obstacle 0: points 0, 1, ... | obstacle 1: ...   a rank has some points of each
 class RankFields final : public SharedFields {
  public:
@@ -52,6 +53,7 @@ class RankFields final : public SharedFields {
   std::vector<LevelItems> levels_;
 
   LevelItems found(RankItems own) const;
+  Field whole_of_numbered(const RowsOfField& rows, const Field& local) const;
   static Field owned(const LevelItems& level, const RowsOfField& rows, const Field& local);
 };
 

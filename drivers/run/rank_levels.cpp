@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/row_ranges.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/contact/build_surface.hpp>
 #include <plica/drivers/run/rank_levels.hpp>
@@ -7,13 +8,16 @@
 namespace plica {
 
 template <class B>
-void RankLevels<B>::add(const TetMesh& mesh, const LevelConstants& constants) {
+void RankLevels<B>::add(const TetMesh& mesh, const LevelConstants& constants, bool matrix) {
   const std::size_t i = own_.size();
   Own& own = own_.emplace_back();
   own.mesh = &mesh, own.constants = &constants;
   if (!shares(i)) return;
-  own.part = part_of_level(mesh, constants.element, *ranks_, vertex_block<B>);
+  own.part = part_of_level(mesh, constants.element, *ranks_, vertex_block<B>, matrix);
   own.part->number = static_cast<int>(i);
+  if (matrix && !constants.fibres.empty())
+    for (const int e : own.part->matrix->tet)
+      own.part->matrix->fibres.push_back(constants.fibres[index_of(e)]);
   own.of_part = constants_of_part(constants, own.part->part);
   own.mesh = &own.part->mesh, own.constants = &own.of_part;
 }
@@ -31,7 +35,7 @@ Transfer<B> RankLevels<B>::interpolation(const std::string& name, const Embeddin
                                          Gathered& gathered) const {
   Embedding rows = embedding_of_part(whole, part(to) ? &part(to)->part : nullptr);
   if (part(from)) {
-    const ReadVertices read = read_vertices(*part(from), read_by(rows));
+    const ReadVertices read = read_vertices(*ranks_, part(from)->part, read_by(rows));
     gathered = gather(read, from, to);
     rows = with_places(std::move(rows), read);
   }
@@ -46,7 +50,7 @@ Restriction<B> RankLevels<B>::restriction(std::vector<RestrictionRow> rows, std:
     std::vector<int> all;
     for (const RestrictionRow& row : rows)
       all.insert(all.end(), row.source.begin(), row.source.end());
-    const ReadVertices read = read_vertices(*part(from), std::move(all));
+    const ReadVertices read = read_vertices(*ranks_, part(from)->part, std::move(all));
     gathered = gather(read, from, to);
     for (RestrictionRow& row : rows)
       for (int& v : row.source) v = read.place(v);

@@ -27,7 +27,8 @@ class RankLevels {
 
   /// Adds the next level. All ranks call this.
   /// @param mesh, constants  of the whole level; they outlive this
-  void add(const TetMesh& mesh, const LevelConstants& constants);
+  /// @param matrix           whether matrices of it are assembled
+  void add(const TetMesh& mesh, const LevelConstants& constants, bool matrix);
   /// Returns this rank's part of a level; null: it has all of it.
   const LevelPart* part(std::size_t i) const { return own_[i].part ? &*own_[i].part : nullptr; }
   /// Returns the mesh and the constants of what the rank has of a level.

@@ -16,26 +16,30 @@ std::string needs_one_process(const std::string& what, const std::string& expect
   return text(what, ", which runs on one process alone; expected ", expected, ", or one process");
 }
 
-/// Systems of implicit steps are solved by products alone: no rank has a matrix of all of them.
+/// A direct solver factorises all of a matrix, and each rank has its own rows.
 std::string refused_solver(const ImplicitOptions& o) {
-  const std::string of = "integration.implicit.";
-  if (o.solver == "direct" || o.solver == "v_cycle")
-    return needs_one_process(of + "solver is " + o.solver, "conjugate_gradients");
-  if (o.preconditioner == "multigrid" || o.preconditioner == "chebyshev")
-    return needs_one_process(of + "preconditioner is " + o.preconditioner, "block_jacobi");
-  if (o.matrix == "assembled") return needs_one_process(of + "matrix is " + o.matrix, "free");
-  return {};
+  return o.solver == "direct" ? needs_one_process("integration.implicit.solver is " + o.solver,
+                                                  "conjugate_gradients")
+                              : std::string();
 }
 
 std::string refused_methods(const IntegrationOptions& o) {
-  if (o.cycle != Single::name && !stepper_needs(o.cycle).coarse_states)
+  if (o.cycle != Single::name && o.cycle != Him::name && !stepper_needs(o.cycle).coarse_states)
     return needs_one_process("integration.cycle is " + o.cycle,
-                             "single, rs, rv, rsv, rsv_sv or fas");
-  for (const std::string& name : o.integrator)
-    if (name == VCycleEuler::name)
-      return needs_one_process("integration.integrator is " + name, ImplicitEuler::name);
+                             "single, him, rs, rv, rsv, rsv_sv or fas");
   return std::ranges::all_of(o.integrator, is_explicit) ? std::string()
                                                         : refused_solver(o.implicit);
+}
+
+std::string refused_him(const Problem& problem) {
+  if (problem.integration.cycle != Him::name) return {};
+  if (has_contact(problem))
+    return needs_one_process("integration.cycle is him, with contact",
+                             "another cycle or no obstacles");
+  if (problem.body.parts.size() > 1)
+    return needs_one_process("integration.cycle is him, with several bodies",
+                             "another cycle or one body");
+  return {};
 }
 
 std::string refused_loads(const std::vector<LoadOptions>& loads) {
@@ -68,6 +72,7 @@ std::string refused_contact(const Problem& problem) {
 
 std::string refused_by_ranks(const Problem& problem) {
   std::string why = refused_methods(problem.integration);
+  if (why.empty()) why = refused_him(problem);
   if (why.empty()) why = refused_loads(problem.body.loads);
   if (why.empty()) why = refused_contact(problem);
   if (why.empty() && !problem.cuts.empty()) why = needs_one_process("cuts change the mesh", "none");

@@ -120,4 +120,14 @@ RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>&
   return A;
 }
 
+RowMatrix some_rows(const RowMatrix& A, const std::vector<int>& rows) {
+  MatrixRows made;
+  for (const int row : rows) {
+    for (RowMatrix::InnerIterator entry(A, row); entry; ++entry)
+      made.add(static_cast<int>(entry.col()), entry.value());
+    made.end_row();
+  }
+  return joined_rows({std::move(made)}, static_cast<Eigen::Index>(rows.size()), A.cols());
+}
+
 }  // namespace plica

@@ -21,6 +21,9 @@ RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
 RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows,
                          Eigen::Index columns);
 
+/// Returns some rows of a matrix, in the order of their numbers.
+RowMatrix some_rows(const RowMatrix& A, const std::vector<int>& rows);
+
 /// Consecutive rows of a matrix.
 struct MatrixRows {
   std::vector<int> first{0}, column;

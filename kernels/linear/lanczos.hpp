@@ -17,8 +17,10 @@ namespace plica {
 template <class B>
 struct BlockLanczosStart {
   Vectors<B> r;
+  Indices<B> number = {};  ///< number that is hashed for each vertex; empty: its own
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) r(a, k) = static_cast<typename B::Real>(hashed(a, k));
+    const int of = number.extent(0) > 0 ? number(a) : a;
+    for (int k = 0; k < 3; ++k) r(a, k) = static_cast<typename B::Real>(hashed(of, k));
   }
 };
 

@@ -58,14 +58,16 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   const Mat3<T> H = cofactor(F);
   const T n = inner(F, F), J = dot(F[0], H[0]), q = n * n - T(4) * inner(H, H);
   const T tiny = T(Kokkos::Experimental::norm_min_v<Real>);
-  T s = sqrt(T(3) * n);
+  T s = sqrt(T(3) * n), left = T(1);  // left: positive where s is not exact yet
   for (int i = 0; i < 24; ++i) {
     const T slope = max(T(4) * (s * s * s - n * s - T(2) * J), tiny);
-    const T step = (((s * s - T(2) * n) * s - T(8) * J) * s + q) / slope;
+    // a lane that is exact steps no further, so that it does not depend on the other lanes
+    const T step = where_positive(left, (((s * s - T(2) * n) * s - T(8) * J) * s + q) / slope);
     // p'' step^2 / 2; divided by the slope, it is what the next step would be
     const T next = (T(6) * s * s - T(2) * n) * step * step;
     s = s - step;
-    if (all_positive(T(Kokkos::Experimental::epsilon_v<Real>) * s * slope + tiny - next)) break;
+    left = next - (T(Kokkos::Experimental::epsilon_v<Real>) * s * slope + tiny);
+    if (all_positive(-left)) break;
   }
   const T turning = s * s * s - n * s - T(2) * J;
   const T scale = T(1) / max(turning, tiny);

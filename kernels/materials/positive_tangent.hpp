@@ -11,15 +11,15 @@ struct Mat9 {
   T a[9][9];
 };
 
-/// Returns true where A + shift I is positive definite in every lane: Cholesky's method meets
-/// positive pivots only.
+/// Returns 1 where A + shift I is positive definite, else 0: there Cholesky's method meets a pivot
+/// that is not positive.
 template <class T>
-KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) {
-  T L[9][9];
+KOKKOS_INLINE_FUNCTION T positive_definite(const Mat9<T>& A, const T& shift) {
+  T L[9][9], positive = T(1);
   for (int j = 0; j < 9; ++j) {
     T pivot = A.a[j][j] + shift;
     for (int k = 0; k < j; ++k) pivot -= L[j][k] * L[j][k];
-    if (!all_positive(pivot)) return false;
+    positive = where_positive(pivot, positive);
     const T root = sqrt(pivot), inverse = T(1) / root;
     for (int i = j + 1; i < 9; ++i) {
       T sum = A.a[i][j];
@@ -27,14 +27,15 @@ KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) 
       L[i][j] = sum * inverse;
     }
   }
-  return true;
+  return positive;
 }
 
 /// Drops the parts of A that belong to negative eigenvalues: with A = V diag V^T, A becomes the sum
-/// of max(diag, 0) v v^T.
+/// of max(diag, 0) v v^T. Lanes where `keep` is positive stay as they are.
 template <class T>
-KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
+KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A, const T& keep) {
   Mat9<T> V;
+  const Mat9<T> before = A;
   diagonalise(A.a, V.a);
   T value[9];
   for (int k = 0; k < 9; ++k) value[k] = max(A.a[k][k], T(0));
@@ -42,13 +43,13 @@ KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
     for (int j = 0; j <= i; ++j) {
       T sum = T(0);
       for (int k = 0; k < 9; ++k) sum += value[k] * V.a[i][k] * V.a[j][k];
-      A.a[i][j] = A.a[j][i] = sum;
+      A.a[i][j] = A.a[j][i] = where_positive(keep, before.a[i][j], sum);
     }
 }
 
 /// Projection of a material's dP/dF to positive semi-definite, per element (Teran, Sifakis, Irving
-/// & Fedkiw 2005). It is computed numerically and so fits any material. Packs of elements that are
-/// positive semi-definite to rounding keep their dP/dF as it is.
+/// & Fedkiw 2005). It is computed numerically and so fits any material. Elements that are positive
+/// semi-definite to rounding keep their dP/dF as it is.
 template <class Material>
 struct PositiveTangent {
   template <class T>
@@ -67,8 +68,8 @@ struct PositiveTangent {
       for (int i = 0; i < 9; ++i)
         for (int j = 0; j < i; ++j) C.a[i][j] = C.a[j][i] = T(0.5f) * (C.a[i][j] + C.a[j][i]);
       using Real = typename LaneOf<T>::type;
-      if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size))
-        clamp_eigenvalues(C);
+      const T positive = positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size);
+      if (!all_positive(positive)) clamp_eigenvalues(C, positive);
     }
     KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
       Mat3<T> dP;

@@ -284,12 +284,19 @@ void set_gradient(const FrameShape& shape, const RowMatrix& moved, FrameFields<B
 }  // namespace
 
 template <class B>
-CoarseFrames<B>::CoarseFrames(const FrameShape& shape, const RowMatrix& moved)
+CoarseFrames<B>::CoarseFrames(const FrameShape& shape, const RowMatrix& moved,
+                              const RankLevel<B>* part)
     : vertices_(static_cast<int>(shape.at_rest.size())),
       sums_(zeros<Sums>("plica::axes.sums",
                         static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
-  frames_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
-  frames_.spread = sparse_rows<B>("axes.spread", RowMatrix(shape.restriction.transpose()));
+  const RowMatrix spread = shape.restriction.transpose();
+  if (part)
+    restriction_ =
+        std::make_unique<SharedProduct<B, Real>>(*part, "axes.restriction", shape.restriction);
+  else
+    frames_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
+  frames_.spread =
+      sparse_rows<B>("axes.spread", part ? some_rows(spread, part->part.vertex) : spread);
   set_gradient<B>(shape, moved, frames_);
   const auto n = static_cast<std::size_t>(vertices_);
   for (Vectors<B>* one : {&share_, &frames_.displacement, &frames_.force})
@@ -305,8 +312,11 @@ CoarseFrames<B>::CoarseFrames(const FrameShape& shape, const RowMatrix& moved)
 
 template <class B>
 void CoarseFrames<B>::turn(const Exec& exec, const Vectors<B>& u) const {
-  update_vertices<B>(exec, "plica::axes_restrict", vertices_,
-                     MultiplyRows<B>{frames_.restriction, u, frames_.displacement});
+  if (restriction_)
+    (*restriction_)(exec, u, frames_.displacement);
+  else
+    update_vertices<B>(exec, "plica::axes_restrict", vertices_,
+                       MultiplyRows<B>{frames_.restriction, u, frames_.displacement});
   update_vertices<B>(exec, "plica::axes_turn", groups_of<B>(vertices_),
                      TurnFrames<B>{frames_, rotation_});
 }

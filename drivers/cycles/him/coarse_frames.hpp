@@ -4,6 +4,7 @@
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/cycles/him/mass_spaces.hpp>
+#include <plica/drivers/spaces/shared_product.hpp>
 #include <plica/kernels/him/coarse_frames.hpp>
 #include <plica/kernels/reduce.hpp>
 
@@ -46,7 +47,8 @@ class CoarseFrames {
   using Real = typename B::Real;
   CoarseFrames() = default;
   /// @param moved  Pi^T E^T: from momenta on u_C to coarse momenta
-  CoarseFrames(const FrameShape& shape, const RowMatrix& moved);
+  /// @param part   this rank's part of the finest level; null: one process has all of it
+  CoarseFrames(const FrameShape& shape, const RowMatrix& moved, const RankLevel<B>* part);
 
   /// Sets R by the displacements u of the finest mesh.
   void turn(const Exec& exec, const Vectors<B>& u) const;
@@ -95,6 +97,8 @@ class CoarseFrames {
 
   int vertices_ = 0;
   FrameFields<B> frames_;
+  /// E, where ranks share the finest level
+  std::unique_ptr<SharedProduct<B, Real>> restriction_;
   Vectors<B> rotation_, share_;
   Sums sums_;  ///< [rounds][groups]
 

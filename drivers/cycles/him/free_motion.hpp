@@ -14,9 +14,13 @@ template <class B>
 class FreeMotion {
  public:
   using Exec = typename B::Exec;
-  explicit FreeMotion(const Vectors<B>& rest)
+  /// @param rest      positions at rest [m]
+  /// @param vertices  the body's vertices, and which of them this process owns
+  /// @param ranks     ranks that share them; null: one process has all
+  FreeMotion(const Vectors<B>& rest, const Items& vertices, Ranks* ranks)
       : rest_(rest),
-        blocks_(static_cast<int>(rest.extent(0))),
+        owned_(vertices),
+        blocks_(vertices.n, ranks),
         sums_(zeros<Doubles<B>>("plica::free.moments", 16)),
         total_(zeros<Doubles<B>>("plica::free.total", 4)),
         frame_("plica::free.frame") {}
@@ -25,8 +29,9 @@ class FreeMotion {
   /// With a `count` on the device, only where that is above 0.
   void take_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& p,
                         const Vectors<B>& rest, const Doubles<B>& count) const {
-    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
-                             SumOfMomenta<B>{model.mass, p}, blocks_, total_);
+    reduce<B, 4>(exec, "plica::free_total", owned_,
+                 TermWhereTouching<B, SumOfMomenta<B>>{count.data(), {model.mass, p}}, blocks_,
+                 total_);
     where_touching<B>(exec, count, "plica::free_take", vertices(),
                       TakeTranslation<B>{model.mass, p, rest, total_});
   }
@@ -35,8 +40,9 @@ class FreeMotion {
   /// With a `count` on the device, only where that is above 0.
   void put_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
                        const Doubles<B>& count) const {
-    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
-                             SumOfMotion<B>{model.mass, v}, blocks_, sums_);
+    reduce<B, 4>(exec, "plica::free_total", owned_,
+                 TermWhereTouching<B, SumOfMotion<B>>{count.data(), {model.mass, v}}, blocks_,
+                 sums_);
     where_touching<B>(exec, count, "plica::free_put", vertices(),
                       PutTranslation<B>{v, total_, sums_});
   }
@@ -44,7 +50,7 @@ class FreeMotion {
   /// Returns the rigid part of p - m v at a state.
   RigidMotion<B> rigid_part(const Exec& exec, const VertexModel<B>& model, const State<B>& state,
                             const Vectors<B>& p) const {
-    reduce<B, 16>(exec, "plica::free_moments", vertices(),
+    reduce<B, 16>(exec, "plica::free_moments", owned_,
                   BodyMoments<B>{model.mass, rest_, state.u, p, state.v}, blocks_, sums_,
                   SetRigidFrame<B>{sums_, frame_});
     return {rest_, state.u, frame_};
@@ -52,15 +58,14 @@ class FreeMotion {
   /// Kicks the momenta, stores their sum and sets `rest` to the momenta without translation.
   void kick(const Exec& exec, const VertexModel<B>& model, const KickMomentum<B>& kick,
             const Vectors<B>& rest) const {
-    reduce<B, 4>(exec, "plica::him_momenta", vertices(), KickAndSum<B>{kick}, blocks_, total_);
+    reduce<B, 4>(exec, "plica::him_momenta", owned_, KickAndSum<B>{kick}, blocks_, total_);
     update_vertices<B>(exec, "plica::free_take", vertices(),
                        TakeTranslation<B>{model.mass, kick.p, rest, total_});
   }
   /// Adds the translation to a = A p, and turns it into mean accelerations a = (a - v) / t.
   void accelerate(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
                   const Vectors<B>& a, double t) const {
-    reduce<B, 4>(exec, "plica::free_total", vertices(), SumOfMotion<B>{model.mass, a}, blocks_,
-                 sums_);
+    reduce<B, 4>(exec, "plica::free_total", owned_, SumOfMotion<B>{model.mass, a}, blocks_, sums_);
     update_vertices<B>(exec, "plica::him_acceleration", vertices(),
                        AccelerationOfTranslated<B>{{a, total_, sums_},
                                                    {v, a, static_cast<typename B::Real>(1 / t)}});
@@ -72,11 +77,12 @@ class FreeMotion {
 
  private:
   Vectors<B> rest_;
+  Items owned_;
   BlockSums<B> blocks_;
   Doubles<B> sums_, total_;
   RigidFrameOf<B> frame_;
 
-  int vertices() const { return static_cast<int>(rest_.extent(0)); }
+  int vertices() const { return owned_.n; }
 };
 
 }  // namespace plica

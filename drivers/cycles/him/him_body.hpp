@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/cycles/him/free_motion.hpp>
 #include <plica/drivers/cycles/him/inertia.hpp>
+#include <plica/kernels/halo.hpp>
 
 // Symbols of cmake/docs/explanation/him.md: A is HimParts::inverse_mass, with the translation of
 // HimParts::free. u, v are state_, f is f_, p is HimFields::p, F is found in kick(). gamma is
@@ -75,7 +76,8 @@ class HimBody {
         state_(parts_.rows.of(level.state.u), parts_.rows.of(level.state.v)),
         f_(parts_.rows.of(level.f)),
         fields_(all.of(parts_.rows)),
-        blocks_(n_),
+        owned_(level.ranks ? vertices_of<B>(level) : Items(n_)),
+        blocks_(n_, ranks_of<B>(level)),
         turned_("plica::him.turned", 1),
         sums_("plica::him.sums", 2),
         watch_("plica::him.watch", 3) {
@@ -160,7 +162,7 @@ class HimBody {
                                  .contact_answer = fields_.contact_answer,
                                  .t = static_cast<Real>(t)};
     const CoarseFrames<B>& frames = parts_.inverse_mass->frames();
-    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_,
+    reduce<B, 2>(exec, "plica::him_kick", owned_, finish, blocks_, sums_,
                  EndOfStep<B>{{sums_, watch_, frames.last_round(), first_},
                               frames.angles(),
                               turned_,
@@ -199,6 +201,7 @@ class HimBody {
   State<B> state_;
   Vectors<B> f_;
   HimFields<B> fields_;
+  Items owned_;  ///< vertices, and which of them this process owns
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
   bool first_ = true;  // no step since the state was set

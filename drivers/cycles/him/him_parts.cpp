@@ -125,7 +125,9 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
   const TetMesh& finest = body.meshes.front();
   const auto spaces = mass_spaces(below.transfers, body.mass);
   HimParts<B> parts;
-  parts.rows = body.rows;
+  const LevelData<B>& level = setup.hierarchy[0];
+  // on several ranks a body is alone, and has all vertices of this rank
+  parts.rows = level.ranks ? RowsOfBody{0, level.model.vertices} : body.rows;
   parts.detail = body.meshes.size() == 1 && !below.made.empty() && below.made.front().slivers;
   std::optional<CoarseModes> modes;
   FrameShape frames;
@@ -141,17 +143,19 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
     frames = of_mesh ? frames_of_mesh(finest, body.meshes.back(), body.mass)
                      : frames_of_space(finest, whole, body.mass);
   }
-  const LevelData<B>& level = setup.hierarchy[0];
-  parts.inverse_mass =
-      std::make_unique<InverseMass<B>>(body.rows.of(level.model.inverse_mass), spaces, frames);
-  parts.fitter =
-      std::make_unique<InertiaFitter<B>>(setup.hierarchy.exec(), level, body.rows, setup.elasticity,
-                                         eigenvalue, *parts.inverse_mass, std::move(modes));
+  parts.inverse_mass = std::make_unique<InverseMass<B>>(parts.rows.of(level.model.inverse_mass),
+                                                        spaces, frames, level.ranks.get());
+  parts.fitter = std::make_unique<InertiaFitter<B>>(setup.hierarchy.exec(), level, parts.rows,
+                                                    setup.elasticity, eigenvalue,
+                                                    *parts.inverse_mass, std::move(modes));
   if (body.free() && !spaces.empty()) {
     const Box box = bounding_box(finest.vertices);
     std::vector<Point> rest = finest.vertices;
     for (Point& p : rest) p -= (box.min + box.max) / 2;
-    parts.free.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)));
+    if (level.ranks) rest = level.ranks->part.local(rest);
+    parts.free.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)),
+                       level.ranks ? vertices_of<B>(level) : Items(parts.rows.count),
+                       ranks_of<B>(level));
   }
   return parts;
 }

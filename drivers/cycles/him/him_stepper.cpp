@@ -109,7 +109,7 @@ void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
 template <class B>
 void HimStepper<B>::find_momenta(const Exec& exec, const LevelData<B>& level) {
   const auto A = [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, p, v); };
-  momentum_of<B>(exec, level.model, A, level.state.v, fields_.p);
+  momentum_of<B>(exec, level, A, level.state.v, fields_.p);
   has_momenta_ = true;
 }
 
@@ -273,10 +273,10 @@ void HimStepper<B>::name_fields(Archive<B>& archive) {
   regaining_.name_fields(archive);
   for (HimBody<B>& body : bodies_) body.name_fields(archive);
   if (archive.restoring()) use_fits();
-  archive.field("the momenta", fields_.p);
-  archive.field("the last force", fields_.force_before);
-  archive.field("the last answer", fields_.answer_before);
-  archive.field("the last contact", fields_.contact.force);
+  archive.field("the momenta", fields_.p, RowItems::vertices);
+  archive.field("the last force", fields_.force_before, RowItems::vertices);
+  archive.field("the last answer", fields_.answer_before, RowItems::vertices);
+  archive.field("the last contact", fields_.contact.force, RowItems::vertices);
   archive.field("how much touched", fields_.contact.touching);
   archive.owns(fields_.g, fields_.a, fields_.contact_answer);
 }

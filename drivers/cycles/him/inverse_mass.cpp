@@ -23,14 +23,15 @@ Eigen::VectorXd inverse_of(const Eigen::VectorXd& x) {
   return x.unaryExpr([](double value) { return value > 0 ? 1 / value : 0.0; });
 }
 
+/// Returns a level below the finest one or another.
+/// @param part  this rank's part of the level above; null: it is whole. Then `down` is left out
 template <class B>
-MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer,
-                        const Eigen::VectorXd& units) {
+MassLevel<B> mass_level(const MassSpace& space, const RowMatrix& up, const Eigen::VectorXd& units,
+                        const RankLevel<B>* part) {
   MassLevel<B> level;
   level.vertices = static_cast<int>(space.up.cols());
-  const RowMatrix up = inverse_of(finer).asDiagonal() * space.up * units.asDiagonal();
-  level.up = sparse_rows<B, float>("him.up", up);
-  level.down = sparse_rows<B, float>("him.down", RowMatrix(up.transpose()));
+  level.up = sparse_rows<B, float>("him.up", part ? some_rows(up, part->part.vertex) : up);
+  if (!part) level.down = sparse_rows<B, float>("him.down", RowMatrix(up.transpose()));
   if (!space.scale.empty()) {
     const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), units.size());
     const Eigen::VectorXd N = inverse.sqrt().matrix();
@@ -45,24 +46,28 @@ MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer,
 
 template <class B>
 InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
-                            const FrameShape& frames)
+                            const FrameShape& frames, const RankLevel<B>* part)
     : vertices_(static_cast<int>(inverse_mass.extent(0))),
       inverse_mass_(inverse_mass),
       weights_{1} {
   if (spaces.empty()) return;
   const Kokkos::Profiling::ScopedRegion region("plica: inverse mass");
   weights_.resize(spaces.size() + 1, 0);
-  Eigen::VectorXd finer = Eigen::VectorXd::Ones(vertices_);
+  Eigen::VectorXd finer = Eigen::VectorXd::Ones(spaces.front().up.rows());
   RowMatrix share = frames.restriction.transpose();
   for (const MassSpace& space : spaces) {
     const Eigen::VectorXd units = units_of(space);
-    MassLevel<B>& level = coarser_.emplace_back(mass_level<B>(space, finer, units));
+    const RowMatrix up = inverse_of(finer).asDiagonal() * space.up * units.asDiagonal();
+    const RankLevel<B>* const shared = coarser_.empty() ? part : nullptr;
+    if (shared)
+      down_ = std::make_unique<SharedProduct<B, float>>(*part, "him.down", up.transpose());
+    MassLevel<B>& level = coarser_.emplace_back(mass_level<B>(space, up, units, shared));
     share = product(RowMatrix(space.up.transpose()), share);
     if (&space == &spaces.back()) break;
     level.share = sparse_rows<B, float>("him.share", RowMatrix(units.asDiagonal() * share));
     finer = units;
   }
-  frames_ = CoarseFrames<B>(frames, share);
+  frames_ = CoarseFrames<B>(frames, share, part);
   filter_.vertices = coarser_.back().vertices;
   filter_.turned =
       zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
@@ -136,10 +141,21 @@ std::size_t InverseMass<B>::weighed() const {
 }
 
 template <class B>
+void InverseMass<B>::go_down_first(const Exec& exec, const Vectors<B>& f,
+                                   const Doubles<B>& count) const {
+  const MassLevel<B>& level = coarser_.front();
+  if (down_) return (*down_)(exec, f, level.force);
+  where_touching<B>(exec, count, "plica::him_down", level.vertices,
+                    MultiplyRows<B, float>{level.down, f, level.force});
+}
+
+template <class B>
 Vectors<B> InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels,
                                    const Doubles<B>& count) const {
-  Vectors<B> finer = f;
-  for (std::size_t i = 0; i < levels; ++i) {
+  if (levels == 0) return f;
+  go_down_first(exec, f, count);
+  Vectors<B> finer = coarser_.front().force;
+  for (std::size_t i = 1; i < levels; ++i) {
     const MassLevel<B>& level = coarser_[i];
     where_touching<B>(exec, count, "plica::him_down", level.vertices,
                       MultiplyRows<B, float>{level.down, finer, level.force});
@@ -153,6 +169,10 @@ template <class Turn>
 void InverseMass<B>::restrict_to_frames(const Exec& exec, const Vectors<B>& f,
                                         const Doubles<B>& count, const Turn& turn) const {
   const MassLevel<B>& coarsest = coarser_.back();
+  if (down_ && coarser_.size() == 1) {
+    go_down_first(exec, f, count);
+    return where_touching<B>(exec, count, "plica::him_turn", coarsest.vertices, turn);
+  }
   const Vectors<B> finer = go_down(exec, f, coarser_.size() - 1, count);
   where_touching<B>(exec, count, "plica::him_down", coarsest.vertices,
                     RestrictToFrames<B, Turn>{{coarsest.down, finer, coarsest.force}, turn});

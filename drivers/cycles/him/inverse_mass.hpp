@@ -21,9 +21,11 @@ class InverseMass {
   using Answer = decltype(CoarseInverseMass<B>::matrix);
 
   /// @param inverse_mass  inverse masses of the body's vertices on the finest level [1/kg]
-  /// @param frames          frames of the coarsest space, where there are any spaces
+  /// @param frames        frames of the coarsest space, where there are any spaces
+  /// @param part          this rank's part of the finest level, of which the vertices are; spaces
+  ///                      and frames are of all of it. Null: one process has all of it
   InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
-              const FrameShape& frames);
+              const FrameShape& frames, const RankLevel<B>* part = nullptr);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// Sets the levels' weights b, finest first; they sum to 1.
@@ -62,13 +64,17 @@ class InverseMass {
  private:
   int vertices_;
   Scalars<B> inverse_mass_;
-  std::vector<MassLevel<B>> coarser_;
+  std::vector<MassLevel<B>> coarser_;  ///< whole ones on each of several ranks
+  /// coarser_.front().down, where ranks share the finest level
+  std::unique_ptr<SharedProduct<B, float>> down_;
   CoarseInverseMass<B> filter_;
   CoarseFrames<B> frames_;
   std::vector<double> weights_;
 
   /// Returns the number of coarser levels down to the last one whose weight is not 0.
   std::size_t weighed() const;
+  /// Restricts f from the finest level to the first coarser one.
+  void go_down_first(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const;
   /// Restricts f to so many coarser levels, and returns the result on the last of them.
   Vectors<B> go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels,
                      const Doubles<B>& count) const;

@@ -13,7 +13,7 @@
 #include "support/several_ranks.hpp"
 
 // Implicit steps of a body that several ranks share have the bits of one process, which solves its
-// systems in the same way: by products, preconditioned by the vertices' own blocks.
+// systems in the same way.
 namespace {
 
 using namespace plica;
@@ -21,25 +21,24 @@ using namespace plica::test;
 
 constexpr int implicit_steps = 3;
 
-/// The pressed organ in implicit steps; which solver is left open.
+void solve_by(Problem& p, const std::string& preconditioner, const std::string& matrix) {
+  ImplicitOptions& o = p.integration.implicit;
+  o.solver = "conjugate_gradients", o.preconditioner = preconditioner, o.matrix = matrix;
+}
+
+/// The pressed organ in implicit steps, whose systems are solved by products.
 Problem implicit_organ(const std::string& integrator, const TetMesh& mesh,
                        const std::string& element) {
   Problem p = pressed_organ(mesh, element);
   p.integration.integrator = {integrator};
   p.integration.macro_step = 4e-3;
-  return p;
-}
-
-/// Names the solver that several ranks choose.
-Problem by_products(Problem p) {
-  ImplicitOptions& o = p.integration.implicit;
-  o.solver = "conjugate_gradients", o.preconditioner = "block_jacobi", o.matrix = "free";
+  solve_by(p, "block_jacobi", "free");
   return p;
 }
 
 template <class B>
 void expect_the_bits_of_one(const Problem& problem, const std::vector<int>& counts) {
-  const Outcome one = on_one_process<B>(by_products(problem), implicit_steps);
+  const Outcome one = on_one_process<B>(problem, implicit_steps);
   EXPECT_EQ(one.contact_energy > 0, !problem.contact.obstacles.empty());
   for (const int count : counts) expect_on_ranks<B>(one, problem, count, implicit_steps);
 }
@@ -67,6 +66,32 @@ const ProblemOptions& options() {
           p.integration.on_failure.halvings = 2;
         }}});
   return all;
+}
+
+/// Solvers that read a matrix of linear elements, or one that is near that of nodal elements.
+struct MatrixSolver {
+  std::string preconditioner, matrix, element;
+  std::vector<TetMesh> coarser = {};
+};
+
+std::vector<MatrixSolver> matrix_solvers() {
+  std::vector<MatrixSolver> all{{"block_jacobi", "assembled", "linear"}};
+  for (const char* preconditioner : {"chebyshev", "multigrid"}) {
+    for (const char* matrix : {"assembled", "free"})
+      all.push_back({preconditioner, matrix, "linear"});
+    all.push_back({preconditioner, "free", "nodal"});
+  }
+  for (const char* element : {"linear", "nodal"})
+    all.push_back(
+        {"multigrid", element == std::string("linear") ? "assembled" : "free", element, {lump(8)}});
+  return all;
+}
+
+Problem solved_by(const MatrixSolver& by, const std::string& integrator, const TetMesh& mesh) {
+  Problem problem = implicit_organ(integrator, mesh, by.element);
+  solve_by(problem, by.preconditioner, by.matrix);
+  problem.body.levels.insert(problem.body.levels.end(), by.coarser.begin(), by.coarser.end());
+  return problem;
 }
 
 template <class B>
@@ -129,7 +154,7 @@ TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneInEachMaterial) {
 TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
   using B = TypeParam;
   const auto check = [](const Problem& problem) {
-    Simulation<B> one(by_products(problem));
+    Simulation<B> one(problem);
     take_steps(one, 2);
     EXPECT_EQ(one.counters().contains("pressure_updates"), problem.body.pressure == "smoothed");
     const SavedState saved = one.save();
@@ -158,6 +183,8 @@ TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
   smooth_pressures(smoothed);
   smoothed.body.material.prony = {{0.3, 0.01}};
   check(smoothed);
+  check(solved_by({"multigrid", "assembled", "linear"}, "bdf2", lump()));
+  check(solved_by({"multigrid", "free", "nodal"}, "bdf2", lump()));
 }
 
 // A part of a macro step that is not solved is halved on all ranks.
@@ -168,22 +195,94 @@ TYPED_TEST(ImplicitOnRanks, HalveStepsAlike) {
     Problem problem = implicit_organ("newmark", lump(), element);
     problem.integration.implicit.newton_iterations = 3;
     problem.integration.on_failure.halvings = 3;
-    Simulation<B> one(by_products(problem));
+    Simulation<B> one(problem);
     take_steps(one, implicit_steps);
     EXPECT_GT(one.counters().at("step_halvings"), 0);
     expect_the_bits_of_one<B>(problem, {3});
   }
 }
 
-TYPED_TEST(ImplicitOnRanks, ChooseConjugateGradientsWithoutAMatrix) {
+template <class Check>
+void for_matrix_solvers(const Check& check) {
+  for (const MatrixSolver& by : matrix_solvers()) {
+    SCOPED_TRACE(by.preconditioner + ", " + by.matrix + ", " + by.element + ", " +
+                 std::to_string(by.coarser.size()) + " coarser meshes");
+    check(by);
+  }
+}
+
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrix) {
+  for_matrix_solvers([](const MatrixSolver& by) {
+    expect_the_bits_of_one<TypeParam>(solved_by(by, "implicit_euler", lump()), {2, 3, 7});
+  });
+}
+
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixInAnOrgan) {
+  for (const MatrixSolver& by : {MatrixSolver{"block_jacobi", "assembled", "linear"},
+                                 MatrixSolver{"multigrid", "assembled", "linear"},
+                                 MatrixSolver{"multigrid", "free", "nodal"}}) {
+    SCOPED_TRACE(by.preconditioner + ", " + by.element);
+    expect_the_bits_of_one<TypeParam>(solved_by(by, "bdf2", liver()), {3, 16});
+  }
+}
+
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixAndEachOption) {
+  for (const auto& [name, change] : options())
+    for (const MatrixSolver& by : {MatrixSolver{"multigrid", "assembled", "linear"},
+                                   MatrixSolver{"multigrid", "free", "nodal"}}) {
+      SCOPED_TRACE(name + ", " + by.element);
+      Problem problem = solved_by(by, "implicit_euler", lump());
+      change(problem);
+      expect_the_bits_of_one<TypeParam>(problem, {4});
+    }
+}
+
+// Where the fibres turn with the place, each rank has those of the elements at its border too.
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixAndFibres) {
+  for (const MatrixSolver& by : {MatrixSolver{"block_jacobi", "assembled", "linear"},
+                                 MatrixSolver{"chebyshev", "free", "nodal"}}) {
+    SCOPED_TRACE(by.element);
+    Problem problem = solved_by(by, "implicit_euler", lump());
+    problem.body.material = complete({"holzapfel_gasser_ogden", 20e3, 0.35, 1000});
+    problem.body.material.fibres = FibreOptions{{1, 0.3, 0}, Point(0, 1, 0.2), {}};
+    problem.integration.implicit.tangent = "positive";
+    expect_the_bits_of_one<TypeParam>(problem, {3});
+  }
+}
+
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneByAVCycle) {
+  for (const char* element : {"linear", "nodal"}) {
+    SCOPED_TRACE(element);
+    Problem problem = implicit_organ("v_cycle_euler", lump(), element);
+    problem.integration.implicit = {};
+    expect_the_bits_of_one<TypeParam>(problem, {3});
+  }
+}
+
+// Coarser levels are integrated, too, and have cycles of their own below them.
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneOnLevelsWithAMatrix) {
+  for (const bool touches : {false, true}) {
+    SCOPED_TRACE(touches ? "contact" : "no contact");
+    Problem problem =
+        solved_by({"multigrid", "assembled", "linear", {lump(8)}}, "implicit_euler", lump());
+    problem.integration.cycle = "rsv";
+    if (!touches) problem.contact = {}, problem.body.surface.reset();
+    expect_the_bits_of_one<TypeParam>(problem, {2});
+  }
+}
+
+TYPED_TEST(ImplicitOnRanks, ChooseTheSolverOfOneProcess) {
   using B = TypeParam;
   for (const char* element : {"linear", "nodal"})
-    BatonRanks(2).run([&](Ranks& ranks) {
-      const Simulation<B> simulation(implicit_organ("bdf2", lump(), element), typename B::Exec(),
-                                     ranks);
-      EXPECT_EQ(simulation.levels()[0].linear_solver,
-                "conjugate_gradients, block_jacobi, without a matrix");
-    });
+    for (const double macro_step : {1e-4, 0.1}) {
+      Problem problem = implicit_organ("bdf2", lump(), element);
+      problem.integration.implicit = {}, problem.integration.macro_step = macro_step;
+      const Simulation<B> one(problem);
+      BatonRanks(2).run([&](Ranks& ranks) {
+        const Simulation<B> simulation(problem, typename B::Exec(), ranks);
+        EXPECT_EQ(simulation.levels()[0].linear_solver, one.levels()[0].linear_solver);
+      });
+    }
 }
 
 TEST(ImplicitOnRanksRefusals, NameTheOptionAndTheAlternative) {
@@ -200,14 +299,6 @@ TEST(ImplicitOnRanksRefusals, NameTheOptionAndTheAlternative) {
   EXPECT_EQ(
       refused([](ImplicitOptions& o) { o.solver = "direct"; }),
       "integration.implicit.solver is direct" + alone + "conjugate_gradients, or one process");
-  EXPECT_EQ(
-      refused([](ImplicitOptions& o) { o.solver = "v_cycle"; }),
-      "integration.implicit.solver is v_cycle" + alone + "conjugate_gradients, or one process");
-  EXPECT_EQ(
-      refused([](ImplicitOptions& o) { o.preconditioner = "multigrid"; }),
-      "integration.implicit.preconditioner is multigrid" + alone + "block_jacobi, or one process");
-  EXPECT_EQ(refused([](ImplicitOptions& o) { o.matrix = "assembled"; }),
-            "integration.implicit.matrix is assembled" + alone + "free, or one process");
 }
 
 }  // namespace

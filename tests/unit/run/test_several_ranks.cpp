@@ -250,9 +250,6 @@ TEST(SeveralRanksRefusals, NameTheOptionAndTheAlternative) {
     });
     return said;
   };
-  EXPECT_EQ(refused([](Problem& p) { p.integration.integrator = {"v_cycle_euler"}; }),
-            "integration.integrator is v_cycle_euler, which runs on one process alone; expected "
-            "implicit_euler, or one process");
   EXPECT_EQ(
       refused([](Problem& p) { p.integration.cycle = "him"; }),
       "integration.cycle is him, which runs on one process alone; expected single, rs, rv, rsv, "

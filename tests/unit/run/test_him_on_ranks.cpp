@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/core/baton_ranks.hpp>
+#include <plica/drivers/run/simulation.hpp>
+
+#include "support/backends.hpp"
+#include "support/pressed_organ.hpp"
+#include "support/refusal.hpp"
+#include "support/several_ranks.hpp"
+
+// The hierarchical inverse mass of a body that several ranks share has the bits of one process.
+// Ranks share the finest level; the coarser ones are whole on each.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+/// The organ without its ball, in steps of the inverse mass.
+Problem him_organ(const TetMesh& mesh, const std::string& element) {
+  Problem p = pressed_organ(mesh, element);
+  p.contact = {}, p.body.surface.reset();
+  p.integration.cycle = "him";
+  return p;
+}
+
+/// Nothing holds or moves the body: its translation is exact.
+void set_free(Problem& p) {
+  p.body.fixed.clear(), p.body.prescribed.clear();
+  p.body.initial.angular_velocity = {3, -20, 9};
+}
+
+template <class B>
+void expect_the_bits_of_one(const Problem& problem, const std::vector<int>& counts) {
+  const Outcome one = on_one_process<B>(problem);
+  for (const int count : counts) expect_on_ranks<B>(one, problem, count);
+}
+
+template <class B>
+class HimOnRanks : public testing::Test {};
+TYPED_TEST_SUITE(HimOnRanks, EachBackend);
+
+TYPED_TEST(HimOnRanks, HasTheBitsOfOne) {
+  for (const char* element : {"linear", "nodal"}) {
+    SCOPED_TRACE(element);
+    expect_the_bits_of_one<TypeParam>(him_organ(lump(), element), {1, 2, 3, 7});
+  }
+}
+
+TYPED_TEST(HimOnRanks, HasTheBitsOfOneInAnOrganWithSlivers) {
+  const Problem problem = him_organ(liver(), "linear");
+  const Simulation<TypeParam> one(problem);
+  EXPECT_EQ(one.levels()[1].kind, LevelKind::slivers);
+  expect_the_bits_of_one<TypeParam>(problem, {3, 16});
+}
+
+TYPED_TEST(HimOnRanks, HasTheBitsOfOneWithEachOption) {
+  ProblemOptions options = with_body_options({
+      {"free", set_free},
+      {"a coarser mesh", [](Problem& p) { p.body.levels.push_back(lump(8)); }},
+      {"one coarser level", [](Problem& p) { p.body.coarsen = std::vector{200}; }},
+      {"smoothed pressures",
+       [](Problem& p) {
+         p.body.material.poisson_ratio = 0.45;
+         if (p.body.element.front() == "nodal") p.body.pressure = "smoothed";
+       }},
+  });
+  options.erase("sliding"), options.erase("tool with mass");  // him takes neither without contact
+  for (const auto& [name, change] : options)
+    for (const char* element : {"linear", "nodal"}) {
+      SCOPED_TRACE(name + ", " + element);
+      Problem problem = him_organ(lump(), element);
+      change(problem);
+      expect_the_bits_of_one<TypeParam>(problem, {4});
+    }
+}
+
+// A body that stiffens takes shorter steps, then longer ones again.
+TYPED_TEST(HimOnRanks, RepairsAlike) {
+  using B = TypeParam;
+  Problem problem = him_organ(lump(), "linear");
+  problem.body.initial.velocity = {0, 0, -6};
+  Simulation<B> one(problem);
+  take_steps(one);
+  EXPECT_GT(one.counters().at("inertia_refits"), 0);
+  expect_the_bits_of_one<B>(problem, {3});
+}
+
+TYPED_TEST(HimOnRanks, SavesTheBytesOfOneAndGoesOn) {
+  using B = TypeParam;
+  for (const bool is_free : {false, true}) {
+    Problem problem = him_organ(lump(), "nodal");
+    if (is_free) set_free(problem);
+    Simulation<B> one(problem);
+    take_steps(one, 3);
+    const SavedState saved = one.save();
+    take_steps(one, 2);
+    const SavedState end = one.save();
+    BatonRanks(3).run([&](Ranks& ranks) {
+      Simulation<B> first(problem, typename B::Exec(), ranks);
+      take_steps(first, 3);
+      const SavedState own = first.save();
+      Simulation<B> second(problem, typename B::Exec(), ranks);
+      second.restore(ranks.own() == 0 ? saved : SavedState{});
+      take_steps(second, 2);
+      const SavedState last = second.save();
+      if (ranks.own() > 0) return;
+      EXPECT_TRUE(own.bytes == saved.bytes);
+      EXPECT_TRUE(last.bytes == end.bytes);
+    });
+  }
+}
+
+TEST(HimOnRanksRefusals, NameWhatItNeeds) {
+  const auto refused = [](const Problem& problem) {
+    std::string said;
+    BatonRanks(2).run([&](Ranks& ranks) {
+      said = refusal([&] { Simulation<Host>(problem, Host::Exec(), ranks); });
+    });
+    return said;
+  };
+  Problem touching = pressed_organ(lump(8), "linear");
+  touching.integration.cycle = "him";
+  EXPECT_EQ(refused(touching),
+            "integration.cycle is him, with contact, which runs on one process alone; expected "
+            "another cycle or no obstacles, or one process");
+}
+
+}  // namespace
