@@ -10,7 +10,7 @@ namespace plica {
 
 template <class B>
 StageSystem<B>::StageSystem(const LevelData<B>& level, bool assembled, bool kept)
-    : nodal_(level.model.rows.slices > 0),
+    : nodal_(is_nodal(level)),
       assembled_(assembled),
       kept_(kept),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),

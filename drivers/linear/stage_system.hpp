@@ -88,7 +88,11 @@ class StageSystem {
   void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
   void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
-  bool has_products() const { return level_->model.float_rows.slices > 0; }
+  // one of several ranks may have no row
+  static bool is_nodal(const LevelData<B>& level) {
+    return level.model.rows.slices > 0 || (level.ranks && level.ranks->slots);
+  }
+  bool has_products() const { return level_->model.float_rows.slices > 0 || level_->float_ranks; }
   bool by_matrix() const { return !nodal_ && (assembled_ || (positive_ && !kept_)); }
 };
 
