@@ -164,7 +164,7 @@ struct LevelData {
   ElementFlags<B> flags;     ///< inverted elements, where none is allowed
   /// Part that this rank has of the level, see kernels/halo.hpp; none: one process has all of it
   std::shared_ptr<const RankLevel<B>> ranks;
-  /// The same for model.float_rows
+  /// Part that this rank has of model.float_rows, and their messages
   std::shared_ptr<const RankLevel<Backend<float, typename B::Exec>>> float_ranks;
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest

@@ -31,7 +31,7 @@ struct RowsOfField {
   std::size_t bytes = 0;                ///< size of a row
   bool present = true;                  ///< false: the field is left out on all ranks
   std::size_t level = 0;                ///< level that the items are of
-  const RowNumbers* numbers = nullptr;  ///< of numbered ones; null: each rank has all rows
+  const RowNumbers* numbers = nullptr;  ///< numbers of numbered rows; null: each rank has all
 };
 
 /// Maker of whole fields from parts of them, and back. Fields are bytes in the host's memory.

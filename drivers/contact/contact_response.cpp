@@ -94,8 +94,12 @@ void ContactResponse<B>::solve(const Exec& exec, const LevelData<B>& level, cons
   contact.records = records_;
   free();
   const DeviceList<B>& list = records_.list;
-  sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_,
-                 records_.touching);
+  if (counts_on_all_ && sums_of_records_.ranks())
+    sum_records<B, 1>(exec, records_, "plica::contact_start", StartContact<B>{contact},
+                      sums_of_records_, records_.touching);
+  else
+    sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_,
+                   records_.touching);
   const int sweeps = contact.isotropic || contact_->whole() > 0 ? sweeps_of_masses : sweeps_of_him;
   for (int sweep = 0; sweep <= sweeps; ++sweep) {
     respond();

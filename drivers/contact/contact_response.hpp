@@ -68,6 +68,10 @@ class ContactResponse {
   /// step is. With its own forces a short step would push out at once the overlap that was at rest.
   void set_part(double part) { part_ = part; }
 
+  /// Counts the records that touch on all ranks, for an inverse mass that couples their parts. Else
+  /// each rank counts its own.
+  void count_on_all_ranks() { counts_on_all_ = true; }
+
   /// Finds deepest places of triangles to rounding. Forces then change with the state without small
   /// jumps, so that they can balance to any part.
   void find_precisely() { records_.precise = true; }
@@ -167,6 +171,7 @@ class ContactResponse {
   ContactStage stage_;
   KeptValues<B> aside_;          ///< copy of the last step's records, in energy_found()
   double part_ = 1, found_ = 0;  ///< found_: time of the state that the records are of [s]
+  bool counts_on_all_ = false;   ///< see count_on_all_ranks()
   bool fresh_ = true;            ///< true: no last step is known
 
   void solve(const Exec& exec, const LevelData<B>& level, const State<B>& state, double time,

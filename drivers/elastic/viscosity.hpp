@@ -55,7 +55,8 @@ class Viscosity {
     Indices<B> region;       ///< [sets] region of each set
     Scalars<B> whole, half;  ///< constants with all and with half of the energy of shape
   };
-  Sets forces_, matrix_;  ///< of forces; of a rank's matrix, where it has other elements
+  /// constants of forces; constants of a rank's matrix, which has elements of other ranks, too
+  Sets forces_, matrix_;
   Scalars<B> isochoric_;
   double time_ = 0;        ///< time of the memory [s]
   double shared_ = 0;      ///< time since time_ that the model's constants are for [s]

@@ -3,7 +3,7 @@
 #include <plica/drivers/level/part_of_level.hpp>
 #include <vector>
 
-// What a rank has of a level besides its part, to assemble the rows of a matrix.
+// Vertices and elements that a rank needs beside its own ones, to assemble its rows of a matrix.
 namespace plica {
 
 /// Marks the vertices of all tetrahedra at vertices that a rank owns.

@@ -34,8 +34,8 @@ RankRanges rank_ranges(const TetMesh& mesh, const std::vector<std::vector<int>>&
 /// Elements at the border are in the parts of several ranks, so that no block is sent.
 struct MatrixPart {
   std::vector<int> tet;  ///< numbers in the whole mesh, ascending
-  TetMesh mesh;          ///< of these, with the local numbers of the part's vertices
-  /// what each run of the whole mesh has of them
+  TetMesh mesh;          ///< tetrahedra, with the local numbers of the part's vertices
+  /// tetrahedra that each run of the whole mesh has of them
   std::vector<std::vector<int>> runs;
   std::vector<FibreAxes> fibres;  ///< per tetrahedron; empty: see LevelConstants
 };

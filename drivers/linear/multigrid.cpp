@@ -323,6 +323,8 @@ void Multigrid<B>::name_fields(Archive<B>& archive) {
                 shared_ ? &shared_->blocks : nullptr);
   archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal,
                 RowItems::vertices);
+  if (shared_ && shared_->galerkin)
+    shared_->galerkin->name_fields(archive), shared_->restriction->name_fields(archive);
   archive.owns(grids_, p_, coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_,
                coarsest_x_, lanczos_, sums_.view(), scalars_);
 }

@@ -90,8 +90,9 @@ class Multigrid final : public Preconditioner<B> {
   DenseInverse<F> coarsest_;
   Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
-  Vectors<F> lanczos_[4];            ///< [vertices of the finest level][3] work space
-  BlockSums<F> sums_, coarse_sums_;  ///< of the finest level; of coarser ones
+  Vectors<F> lanczos_[4];  ///< [vertices of the finest level][3] work space
+  /// work space for sums on the finest level, and on coarser ones
+  BlockSums<F> sums_, coarse_sums_;
   Doubles<B> scalars_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }

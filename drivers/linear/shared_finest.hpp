@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 #include <plica/core/shared_fields.hpp>
+#include <plica/drivers/level/shared_product.hpp>
 #include <plica/drivers/linear/multigrid_parts.hpp>
-#include <plica/drivers/spaces/shared_product.hpp>
 #include <plica/kernels/halo.hpp>
 #include <string>
 #include <vector>
@@ -30,6 +30,10 @@ class SharedGalerkin {
   const HostPattern& pattern() const { return pattern_; }
   /// Computes the whole matrix on each rank.
   void operator()(const Exec& exec, const BlockMatrix<B>& A, const BlockMatrix<B>& coarse) const;
+  template <class Archive>
+  void name_fields(Archive& archive) const {
+    archive.owns(right_, left_, between_, half_.all(), place_);
+  }
 
  private:
   HostPattern pattern_;
@@ -56,6 +60,10 @@ class SharedRestriction {
   /// Sets r = P^T of the residual.
   template <class To>
   void operator()(const Exec& exec, const Fours<B>& residual, const To& r) const;
+  template <class Archive>
+  void name_fields(Archive& archive) const {
+    archive.owns(down_, own_, read_, restricted_.all(), place_);
+  }
 
  private:
   SparseRows<B> down_;  ///< rows that this rank makes
@@ -67,7 +75,7 @@ class SharedRestriction {
   Indices<B> place_;  ///< [slots of the next level] place in restricted_
 };
 
-/// What the ranks exchange of the finest level of a V-cycle.
+/// Messages that ranks exchange of the finest level of a V-cycle.
 template <class B>
 struct SharedFinest {
   Ranks* ranks = nullptr;
@@ -75,7 +83,7 @@ struct SharedFinest {
   Indices<B> number;                       ///< numbers in the whole mesh
   RowNumbers blocks = {};                  ///< numbers of the stored blocks of A
   std::unique_ptr<Halo<B>> vertices = {};  ///< values of vertices
-  std::unique_ptr<Halo<B>> slots = {};     ///< the same by slots, with four numbers or one
+  std::unique_ptr<Halo<B>> slots = {};     ///< values by slots, of four numbers or one
   std::unique_ptr<RowsByRank> coarse = {};
   std::unique_ptr<SharedGalerkin<B>> galerkin = {};
   std::unique_ptr<SharedRestriction<B>> restriction = {};

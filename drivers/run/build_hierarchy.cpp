@@ -18,15 +18,14 @@
 #include <plica/drivers/elastic/materials.hpp>
 #include <plica/drivers/level/build_level.hpp>
 #include <plica/drivers/level/surface_of_part.hpp>
-#include <plica/drivers/linear/list.hpp>
 #include <plica/drivers/linear/make_linear_solver.hpp>
 #include <plica/drivers/loads/assemble_loads.hpp>
 #include <plica/drivers/loads/dead_loads.hpp>
-#include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
 #include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/run/build_hierarchy.hpp>
 #include <plica/drivers/run/deform_start.hpp>
+#include <plica/drivers/run/needs_of_systems.hpp>
 #include <plica/drivers/run/rank_levels.hpp>
 #include <plica/drivers/run/validate.hpp>
 #include <plica/drivers/time/critical_step.hpp>
@@ -225,33 +224,6 @@ class HierarchyBuilder {
         std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
-  /// Returns what a level of nodal elements gets to precondition implicit steps. Products with the
-  /// elements' own tangent (rows in float) need a third of the iterations in thick bodies and two
-  /// thirds in thin ones; each iteration takes twice as long. In contact they need a sixth, and
-  /// half of them where pressures are smoothed: cmake/docs/results/solvers.md.
-  BesideNodal beside_nodal(std::size_t i) const {
-    constexpr double thick = 8;  // elements across
-    if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i)))
-      return BesideNodal::nothing;
-    // products in float know nothing of vertices that slide or follow others
-    if (!constants_[i].sliding.empty() || !built_.meshes[i].followers.vertex.empty())
-      return BesideNodal::matrix;
-    const bool by_products = has_contact(problem_) ||
-                             smooths_pressure(problem_.body, constants_[i].lame) ||
-                             elements_across(built_.meshes[i]) >= thick;
-    return by_products ? BesideNodal::matrix_and_rows : BesideNodal::matrix;
-  }
-
-  /// Returns whether the systems of a level may need a matrix, or a preconditioner that is made
-  /// from one.
-  bool has_matrix(std::size_t i) const {
-    const ImplicitOptions& o = problem_.integration.implicit;
-    const bool by_products = o.matrix == "free" && o.preconditioner == BlockJacobi::name &&
-                             o.solver != VCycleSolver::name;
-    return !is_explicit(integrator_of(i)) &&
-           !(by_products && integrator_of(i) != VCycleEuler::name);
-  }
-
   /// Finds what acts on this rank's part of a level.
   void take_part(std::size_t i) {
     const RankPart& part = own_.part(i)->part;
@@ -266,11 +238,12 @@ class HierarchyBuilder {
   }
 
   void add_level(std::size_t i) {
-    own_.add(built_.meshes[i], constants_[i], has_matrix(i));
+    own_.add(built_.meshes[i], constants_[i], may_need_matrix(problem_, integrator_of(i)));
     const LevelPart* const part = own_.part(i);
     if (part) take_part(i);
-    LevelData<B> level =
-        build_level<B>(problem_.body, own_.mesh(i), own_.constants(i), beside_nodal(i), part);
+    LevelData<B> level = build_level<B>(
+        problem_.body, own_.mesh(i), own_.constants(i),
+        beside_nodal(problem_, integrator_of(i), built_.meshes[i], constants_[i]), part);
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<double> edges = local_edge_lengths(built_.meshes[i]);
       if (part) edges = part->part.local(edges);

@@ -33,9 +33,6 @@ std::string refused_methods(const IntegrationOptions& o) {
 
 std::string refused_him(const Problem& problem) {
   if (problem.integration.cycle != Him::name) return {};
-  if (has_contact(problem))
-    return needs_one_process("integration.cycle is him, with contact",
-                             "another cycle or no obstacles");
   if (problem.body.parts.size() > 1)
     return needs_one_process("integration.cycle is him, with several bodies",
                              "another cycle or one body");

@@ -4,7 +4,7 @@
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/cycles/him/mass_spaces.hpp>
-#include <plica/drivers/spaces/shared_product.hpp>
+#include <plica/drivers/level/shared_product.hpp>
 #include <plica/kernels/him/coarse_frames.hpp>
 #include <plica/kernels/reduce.hpp>
 
@@ -88,6 +88,7 @@ class CoarseFrames {
   void name_fields(Archive<B>& archive) const {
     archive.field("the axes' share of the momenta", share_);
     archive.field("the coarsest axes", rotation_);
+    if (restriction_) restriction_->name_fields(archive);
     archive.owns(frames_, sums_);
   }
 

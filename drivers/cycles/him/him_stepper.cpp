@@ -56,6 +56,7 @@ template <class B>
 void HimStepper<B>::start(Hierarchy<B>& h) {
   const LevelData<B>& level = h[0];
   const auto& exec = h.exec();
+  h[0].response().count_on_all_ranks();
   for (const HimBody<B>& body : bodies_) body.turn(exec, level.state.u);
   weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, fields_.p);
   answer(exec, fields_.p, fields_.a);

@@ -58,6 +58,7 @@ class InverseMass {
   const CoarseFrames<B>& frames() const { return frames_; }
   void name_fields(Archive<B>& archive) const {
     frames_.name_fields(archive);
+    if (down_) down_->name_fields(archive);
     archive.owns(coarser_, filter_);
   }
 

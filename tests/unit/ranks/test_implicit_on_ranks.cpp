@@ -233,7 +233,7 @@ TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixAndEachOption) {
       SCOPED_TRACE(name + ", " + by.element);
       Problem problem = solved_by(by, "implicit_euler", lump());
       change(problem);
-      expect_the_bits_of_one<TypeParam>(problem, {4});
+      expect_the_bits_of_one<TypeParam>(problem, {3});
     }
 }
 

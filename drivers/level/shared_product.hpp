@@ -42,7 +42,7 @@ class RowsOfAll {
 /// Which rank makes each row of a matrix whose columns are the vertices of a shared level: one that
 /// owns a vertex which the row reads.
 struct RowsByRank {
-  RowMatrix matrix;        ///< of the whole level
+  RowMatrix matrix;        ///< matrix of the whole level
   std::vector<int> own;    ///< rows that this rank makes, ascending
   std::vector<int> place;  ///< [rows] place of each among those of rank 0, of rank 1, ...
 
@@ -59,6 +59,10 @@ class SharedProduct {
   SharedProduct(const RankLevel<B>& level, const std::string& what, RowMatrix A);
   /// Sets y = A x, of x at the vertices that ranks own. Waits.
   void operator()(const Exec& exec, const Vectors<B>& x, const Vectors<B>& y) const;
+  template <class Archive>
+  void name_fields(Archive& archive) const {
+    archive.owns(rows_, results_.all(), place_);
+  }
 
  private:
   SparseRows<B, Value> rows_;  ///< rows that this rank makes

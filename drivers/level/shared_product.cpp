@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/to_device.hpp>
 #include <plica/drivers/level/rank_lists.hpp>
-#include <plica/drivers/spaces/shared_product.hpp>
+#include <plica/drivers/level/shared_product.hpp>
 #include <plica/drivers/spaces/transfer_matrix.hpp>
 #include <plica/kernels/transfer/transfer.hpp>
 #include <utility>
