@@ -9,21 +9,25 @@
 namespace plica {
 
 SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
-                            const RankPart& part, Element element, int own) {
+                            const LevelPart& level) {
+  const RankPart& part = level.part;
   const std::vector<int> at = vertices_at(surface.vertices, mesh);
   if (at.empty())
     throw InputError(
         "body.surface has points that are at no vertex of level 0, which needs one process; "
         "expected body.surface: boundary, or none");
+  std::vector<char> has(part.vertex.size(), 0);
+  std::fill(has.begin() + part.first_owned, has.begin() + part.last_owned, 1);
+  for (const int v : level.share_vertex) has[index_of(v)] = 1;
   SurfacePart made;
   for (std::size_t p = 0; p < at.size(); ++p) {
     const auto found = std::ranges::lower_bound(part.vertex, at[p]);
     if (found == part.vertex.end() || *found != at[p]) continue;
     const int v = static_cast<int>(found - part.vertex.begin());
-    const bool is_owned = part.owner[index_of(v)] == own;
-    if (element == Element::nodal && !is_owned) continue;
+    const bool is_owned = part.owns(v);
+    if (!has[index_of(v)]) continue;
     if (is_owned) made.owned.push_back(static_cast<int>(made.points.size()));
-    if (element == Element::linear) made.counted.push_back(is_owned ? 1 : 0);
+    if (!level.nodal) made.counted.push_back(is_owned ? 1 : 0);
     made.points.push_back(static_cast<int>(p));
     made.surface.vertices.push_back(surface.vertices[p]);
     const int beside = std::max(0, v - 1);  // read with the weight 0

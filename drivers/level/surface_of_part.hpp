@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/rank_part.hpp>
 #include <plica/core/transfer.hpp>
 #include <plica/drivers/elastic/elements.hpp>
+#include <plica/drivers/level/part_of_level.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <vector>
 
@@ -17,11 +17,10 @@ struct SurfacePart {
   Embedding embedding;       ///< each at its vertex of the part
 };
 
-/// Returns the points at vertices where forces are complete: with linear elements at all vertices
-/// of the part, with nodal ones at owned vertices. Throws InputError for a surface with points that
-/// are at no vertex.
+/// Returns the points at vertices where forces are complete: at owned vertices, and with linear
+/// elements at copies. Throws InputError for a surface with points that are at no vertex.
 SurfacePart surface_of_part(const TriangleSurface& surface, const TetMesh& mesh,
-                            const RankPart& part, Element element, int own);
+                            const LevelPart& level);
 
 /// Returns the interpolation of these points from the part's vertices, see build_surface().
 template <class B>

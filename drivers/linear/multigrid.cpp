@@ -48,6 +48,9 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
       transfers.empty() ? A.rows : std::max(A.rows, static_cast<int>(transfers.front().cols()));
   for (auto& x : lanczos_) x = zeros<Vectors<F>>("plica::multigrid.lanczos", most);
   sums_ = BlockSums<F>(A.rows, part ? part->ranks : nullptr), coarse_sums_ = BlockSums<F>(most);
+  std::optional<RowsByRank> by_rank;  // rows of the first coarser level
+  if (part && !transfers.empty())
+    by_rank.emplace(*part->ranks, part->part, RowMatrix(transfers.front().transpose()));
   HostPattern pattern = host_pattern(A);
   SlotOrder finer;
   for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -71,8 +74,8 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
     if (i == 1 && shared_) {
       const RowMatrix P = by_slots(some_rows(transfers[0], part->part.vertex), finer, order);
       grids_[0].up = sparse_rows<F>("multigrid.up", P);
-      shared_->restriction = std::make_unique<SharedRestriction<F>>(
-          *part->ranks, part->part, *shared_->coarse, finer, order.vertex);
+      shared_->restriction = std::make_unique<SharedRestriction<F>>(*part->ranks, part->part,
+                                                                    *by_rank, finer, order.vertex);
     } else if (i > 0) {
       const RowMatrix P = by_slots(transfers[i - 1], finer, order);
       grids_[i - 1].up = sparse_rows<F>("multigrid.up", P);
@@ -97,7 +100,7 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
                      by_products(grid) ? vectors("plica::multigrid.product") : SlotVectors<F>()};
     grid.d = zeros<Fours<F>>("plica::multigrid.d", packed.slots());
     grid.e = zeros<Fours<F>>("plica::multigrid.e", packed.slots());
-    if (i == 0 && part) share(*part, pattern, transfers, order);
+    if (i == 0 && part) share(*part, pattern, transfers, order, by_rank);
     finer = std::move(order);
   }
   if (finest_) p_ = zeros<Vectors<F>>("plica::multigrid.p", A.rows);
@@ -115,10 +118,11 @@ SlotOrder Multigrid<B>::order_of(const Grid& grid, const HostPattern& stored,
 /// Makes what the ranks exchange of the finest level.
 template <class B>
 void Multigrid<B>::share(const RankLevel<B>& part, const HostPattern& A,
-                         const std::vector<RowMatrix>& transfers, const SlotOrder& order) {
+                         const std::vector<RowMatrix>& transfers, const SlotOrder& order,
+                         const std::optional<RowsByRank>& by_rank) {
   Ranks& ranks = *part.ranks;
   SharedFinest<F>& shared = *shared_;
-  shared.ranks = &ranks, shared.number = part.number;
+  shared.number = part.number;
   shared.items = {A.rows(), part.part.first_owned, part.part.last_owned};
   shared.blocks = numbers_of_blocks(ranks, part.part, part.given, A);
   shared.vertices =
@@ -127,10 +131,8 @@ void Multigrid<B>::share(const RankLevel<B>& part, const HostPattern& A,
                                            rows_by_slots(part.vertex_rows, part.part, order),
                                            std::vector{1, 4});
   if (transfers.empty()) return;
-  shared.coarse =
-      std::make_unique<RowsByRank>(ranks, part.part, RowMatrix(transfers.front().transpose()));
   shared.galerkin =
-      std::make_unique<SharedGalerkin<F>>(ranks, part.part, A, transfers.front(), *shared.coarse);
+      std::make_unique<SharedGalerkin<F>>(ranks, part.part, A, transfers.front(), *by_rank);
 }
 
 template <class B>
@@ -326,7 +328,7 @@ void Multigrid<B>::name_fields(Archive<B>& archive) {
   if (shared_ && shared_->galerkin)
     shared_->galerkin->name_fields(archive), shared_->restriction->name_fields(archive);
   archive.owns(grids_, p_, coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_,
-               coarsest_x_, lanczos_, sums_.view(), scalars_);
+               coarsest_x_, lanczos_, sums_.view(), coarse_sums_.view(), scalars_);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Multigrid<Backend<Real, Exec>>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <plica/core/archive.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/linear/cycle_product.hpp>
@@ -47,9 +48,9 @@ class Preconditioner {
 ///
 /// The polynomial updates the residual, so that the residual costs no product of its own. The
 /// polynomial reads copies of the matrices in 16 bits a number. All vectors of a cycle are in the
-/// order of the slots of these copies (kernels/linear/packed_rows.hpp). Nothing in a cycle waits
-/// for the device; a fit waits once a level. On several ranks each smooths its rows of the finest
-/// level, and coarser levels are whole on each (shared_finest.hpp).
+/// order of the slots of these copies (kernels/linear/packed_rows.hpp). On one process nothing in a
+/// cycle waits for the device; a fit waits once a level. On several ranks each smooths its rows of
+/// the finest level, and coarser levels are whole on each (shared_finest.hpp).
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -90,7 +91,7 @@ class Multigrid final : public Preconditioner<B> {
   DenseInverse<F> coarsest_;
   Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
-  Vectors<F> lanczos_[4];  ///< [vertices of the finest level][3] work space
+  Vectors<F> lanczos_[4];  ///< [most vertices of a level][3] work space
   /// work space for sums on the finest level, and on coarser ones
   BlockSums<F> sums_, coarse_sums_;
   Doubles<B> scalars_;
@@ -100,7 +101,8 @@ class Multigrid final : public Preconditioner<B> {
   bool is_shared(const Grid& grid) const { return shared_ && &grid == &grids_.front(); }
   SlotOrder order_of(const Grid& grid, const HostPattern& stored, const RankLevel<B>* part) const;
   void share(const RankLevel<B>& part, const HostPattern& A,
-             const std::vector<RowMatrix>& transfers, const SlotOrder& order);
+             const std::vector<RowMatrix>& transfers, const SlotOrder& order,
+             const std::optional<RowsByRank>& by_rank);
   void fit_smoother(const Exec& exec, const Grid& grid) const;
   double largest_eigenvalue(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;

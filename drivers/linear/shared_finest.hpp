@@ -78,13 +78,11 @@ class SharedRestriction {
 /// Messages that ranks exchange of the finest level of a V-cycle.
 template <class B>
 struct SharedFinest {
-  Ranks* ranks = nullptr;
   Items items{0};                          ///< vertices, and which of them this rank owns
   Indices<B> number;                       ///< numbers in the whole mesh
   RowNumbers blocks = {};                  ///< numbers of the stored blocks of A
   std::unique_ptr<Halo<B>> vertices = {};  ///< values of vertices
   std::unique_ptr<Halo<B>> slots = {};     ///< values by slots, of four numbers or one
-  std::unique_ptr<RowsByRank> coarse = {};
   std::unique_ptr<SharedGalerkin<B>> galerkin = {};
   std::unique_ptr<SharedRestriction<B>> restriction = {};
 };

@@ -66,6 +66,7 @@ class StageSystem {
   void name_fields(Archive<B>& archive) const {
     archive.owns(pattern_, shares_, inverse_diagonal_, blocks_of_matrix_);
     archive.owns(composed_.matrix, composed_.map);
+    if (ranks()) archive.owns(ranks()->around_owned);
     if (cycle_product_) cycle_product_->name_fields(archive);
   }
 

@@ -152,9 +152,7 @@ class HierarchyBuilder {
         terms_.push_back(own_.shares(i)
                              ? std::vector<std::unique_ptr<ForceTerm<B>>>()
                              : make_force_terms<B>(body, mesh, constants_[i], loads_[i], level));
-        if (seeks_rest(problem_.integration) && !problem_.gravity.isZero(0))
-          terms_[i].push_back(std::make_unique<DeadLoads<B>>(std::vector{weight_load<B>(
-              constants_[i].mass, problem_.gravity, course_to_rest(problem_.integration.rest))}));
+        if (!own_.shares(i)) add_weight_to_rest(i, constants_[i]);
       }
       for (Point& p : mesh.vertices) p += shift;
     }
@@ -162,6 +160,13 @@ class HierarchyBuilder {
     locators_.resize(meshes_);
     if (body.surface) surface_ = *body.surface;
     for (Point& p : surface_.vertices) p += shift;
+  }
+
+  /// Adds gravity to a level's terms where it grows to rest.
+  void add_weight_to_rest(std::size_t i, const LevelConstants& constants) {
+    if (!seeks_rest(problem_.integration) || problem_.gravity.isZero(0)) return;
+    terms_[i].push_back(std::make_unique<DeadLoads<B>>(std::vector{weight_load<B>(
+        constants.mass, problem_.gravity, course_to_rest(problem_.integration.rest))}));
   }
 
   /// Returns the search for points in a level's mesh, which is made when it is first asked for.
@@ -229,11 +234,11 @@ class HierarchyBuilder {
     const RankPart& part = own_.part(i)->part;
     terms_[i] = make_force_terms<B>(problem_.body, own_.mesh(i), own_.constants(i),
                                     loads_of_part(loads_[i], part), static_cast<int>(i));
+    add_weight_to_rest(i, own_.constants(i));
     if (i > 0) return;
     built_.held = held_by_part(built_.held, part);
     if (!problem_.body.surface) return;
-    part_surface_ = surface_of_part(surface_, built_.meshes[i], part, constants_[i].element,
-                                    own_.ranks()->own());
+    part_surface_ = surface_of_part(surface_, built_.meshes[i], *own_.part(i));
     built_.surface_point = part_surface_.points, built_.owned_points = part_surface_.owned;
   }
 

@@ -18,7 +18,8 @@ bool may_need_matrix(const Problem& problem, const std::string& integrator) {
 BesideNodal beside_nodal(const Problem& problem, const std::string& integrator, const TetMesh& mesh,
                          const LevelConstants& constants) {
   constexpr double thick = 8;  // elements across
-  if (constants.element != Element::nodal || is_explicit(integrator)) return BesideNodal::nothing;
+  if (constants.element != Element::nodal || !may_need_matrix(problem, integrator))
+    return BesideNodal::nothing;
   // products in float know nothing of vertices that slide or follow others
   if (!constants.sliding.empty() || !mesh.followers.vertex.empty()) return BesideNodal::matrix;
   const bool by_products = has_contact(problem) || smooths_pressure(problem.body, constants.lame) ||

@@ -4,6 +4,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/methods/integrators.hpp>
 #include <plica/drivers/methods/methods.hpp>
+#include <plica/drivers/methods/rest.hpp>
 #include <plica/drivers/methods/steppers.hpp>
 #include <plica/drivers/run/validate.hpp>
 
@@ -24,9 +25,10 @@ std::string refused_solver(const ImplicitOptions& o) {
 }
 
 std::string refused_methods(const IntegrationOptions& o) {
-  if (o.cycle != Single::name && o.cycle != Him::name && !stepper_needs(o.cycle).coarse_states)
+  if (o.cycle != Single::name && o.cycle != Him::name && !seeks_rest(o) &&
+      !stepper_needs(o.cycle).coarse_states)
     return needs_one_process("integration.cycle is " + o.cycle,
-                             "single, him, rs, rv, rsv, rsv_sv or fas");
+                             "single, him, rest, rs, rv, rsv, rsv_sv or fas");
   return std::ranges::all_of(o.integrator, is_explicit) ? std::string()
                                                         : refused_solver(o.implicit);
 }

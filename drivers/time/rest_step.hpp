@@ -74,7 +74,7 @@ class RestStep final : public ImplicitStep<B> {
     for (int k = 0, failures = 0; k < most_stages && failures < most_failures; ++k) {
       const bool solved = stage(level, time, h, k == 0);
       if (this->stages().began_at_rest()) return stop(level), true;
-      const bool moved = k == 0 && level.prescribed.count > 0;
+      const bool moved = k == 0 && this->stages().moves_given();
       if (!solved && (moved || length_ < critical_)) break;
       const double left = this->stages().unsolved(),
                    way =
@@ -170,17 +170,29 @@ class RestStep final : public ImplicitStep<B> {
     std::swap(way_, last_way_), part_ = part;
   }
 
-  /// Finds the vertex with the largest force that is not balanced.
+  /// Finds the vertex with the largest force that is not balanced, by its number in the whole mesh.
   void find_worst(const Level<B>& level) {
     const auto force = host_values(level.exec(), level.f),
                inverse_mass = host_values(level.exec(), level.model.inverse_mass);
+    const Items owned = vertices_of<B>(level);
     double most = 0;
-    for (std::size_t a = 0; a < inverse_mass.size(); ++a) {
+    for (auto a = static_cast<std::size_t>(owned.first); a < static_cast<std::size_t>(owned.last);
+         ++a) {
       double square = 0;
       for (std::size_t k = 0; k < 3; ++k)
         square += static_cast<double>(force[3 * a + k]) * static_cast<double>(force[3 * a + k]);
       if (inverse_mass[a] > 0 && square > most) most = square, worst_ = static_cast<int>(a);
     }
+    if (!level.ranks) return;
+    Ranks& ranks = *level.ranks->ranks;
+    double largest = most;
+    ranks.most({&largest, 1});
+    if (!(largest > 0)) return;
+    // the lowest number of those that have it
+    double number = most == largest ? -level.ranks->part.vertex[static_cast<std::size_t>(worst_)]
+                                    : -std::numeric_limits<double>::infinity();
+    ranks.most({&number, 1});
+    worst_ = static_cast<int>(-number);
   }
 };
 

@@ -63,17 +63,17 @@ struct HoldMatrix {
     for (int s = A.first(a); s < A.first(a + 1); ++s) {
       const int column = sliding.place(A.column(s));
       if ((row < 0 && column < 0) || !A.is_stored(a, s)) continue;
-      Mat3<double> M;
-      for (int k = 0; k < 9; ++k) M[k % 3][k / 3] = static_cast<double>(A.number(a, s, k));
+      const int at = A.place(s);
+      Mat3<double> M;  // as it is stored: from the left of the lower vertex
+      for (int k = 0; k < 9; ++k) M[k % 3][k / 3] = static_cast<double>(A.value(at, k));
       if (s == own) {
         M = held_own_block(sliding, row, M);
       } else {
-        if (row >= 0) hold_side(sliding, row, true, M);
-        if (column >= 0) hold_side(sliding, column, false, M);
+        const int lower = s < own ? column : row, upper = s < own ? row : column;
+        if (lower >= 0) hold_side(sliding, lower, true, M);
+        if (upper >= 0) hold_side(sliding, upper, false, M);
       }
-      const int at = A.place(s);
-      for (int k = 0; k < 9; ++k)
-        A.value(at, s < own ? k % 3 * 3 + k / 3 : k) = static_cast<Real>(M[k % 3][k / 3]);
+      for (int k = 0; k < 9; ++k) A.value(at, k) = static_cast<Real>(M[k % 3][k / 3]);
     }
   }
 };

@@ -56,6 +56,7 @@ const ProblemOptions& options() {
   static const ProblemOptions all = with_body_options(
       {{"stiffness damping", [](Problem& p) { p.body.damping.stiffness = 1e-3; }},
        {"smoothed pressures", smooth_pressures},
+       {"oblique sliding", [](Problem& p) { p.body.fixed.front().slide = Point(1, 0.4, 0.3); }},
        {"nothing moved", [](Problem& p) { p.body.prescribed.clear(); }},
        {"no contact", [](Problem& p) { p.contact = {}, p.body.surface.reset(); }},
        {"one linear system", [](Problem& p) { p.integration.implicit.newton_iterations = 1; }},
@@ -215,6 +216,14 @@ TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrix) {
   for_matrix_solvers([](const MatrixSolver& by) {
     expect_the_bits_of_one<TypeParam>(solved_by(by, "implicit_euler", lump()), {2, 3, 7});
   });
+}
+
+TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixAndEachIntegrator) {
+  for (const char* integrator : {"sdirk2", "newmark", "generalized_alpha"}) {
+    SCOPED_TRACE(integrator);
+    expect_the_bits_of_one<TypeParam>(
+        solved_by({"block_jacobi", "assembled", "linear"}, integrator, lump()), {3});
+  }
 }
 
 TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneWithAMatrixInAnOrgan) {

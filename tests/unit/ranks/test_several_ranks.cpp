@@ -250,9 +250,10 @@ TEST(SeveralRanksRefusals, NameTheOptionAndTheAlternative) {
     });
     return said;
   };
-  EXPECT_EQ(refused([](Problem& p) { p.integration.cycle = "auto"; }),
-            "integration.cycle is auto, which runs on one process alone; expected single, him, rs, "
-            "rv, rsv, rsv_sv or fas, or one process");
+  EXPECT_EQ(
+      refused([](Problem& p) { p.integration.cycle = "auto"; }),
+      "integration.cycle is auto, which runs on one process alone; expected single, him, rest, "
+      "rs, rv, rsv, rsv_sv or fas, or one process");
   EXPECT_EQ(refused([](Problem& p) { p.contact.obstacles.front().grasp.emplace(); }),
             "contact.obstacles.0.grasp holds points, which runs on one process alone; expected "
             "none, or one process");
