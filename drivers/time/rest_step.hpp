@@ -39,6 +39,7 @@ class RestStep final : public ImplicitStep<B> {
       : ImplicitStep<B>(level, parts),
         tolerance_(parts.rest),
         edge_(parts.edge),
+        given_(on_any_rank<B>(level, level.prescribed.count > 0)),
         critical_(parts.critical_step > 0 && std::isfinite(parts.critical_step)
                       ? parts.critical_step
                       : 1e-6) {
@@ -74,7 +75,7 @@ class RestStep final : public ImplicitStep<B> {
     for (int k = 0, failures = 0; k < most_stages && failures < most_failures; ++k) {
       const bool solved = stage(level, time, h, k == 0);
       if (this->stages().began_at_rest()) return stop(level), true;
-      const bool moved = k == 0 && this->stages().moves_given();
+      const bool moved = k == 0 && given_;
       if (!solved && (moved || length_ < critical_)) break;
       const double left = this->stages().unsolved(),
                    way =
@@ -108,7 +109,9 @@ class RestStep final : public ImplicitStep<B> {
   // part of the load step in which obstacles stand still, in all stages but the first
   static constexpr double instant = 1e-9;
 
-  double tolerance_, edge_, critical_;
+  double tolerance_, edge_;
+  bool given_;  ///< whether the motion of a vertex of the whole level is given
+  double critical_;
   double length_ = 0;  ///< length of the next stage [s]; 0: that of a first one
   double end_ = 0;     ///< end of the last load step [s]
   int worst_ = -1;

@@ -79,8 +79,6 @@ class StageSolver {
   /// Returns whether the last stage of a body that seeks rest began at rest: its forces were
   /// balanced without inertia. unsolved() is then, and else, the part of them that was not.
   bool began_at_rest() const { return at_rest_; }
-  /// Returns whether the motion of a vertex of the whole level is given.
-  bool moves_given() const { return given_; }
   /// Computes the mixed dilatations of the next stage from the state that it starts from.
   void forget_dilatations() { fresh_ = 1; }
   /// Returns the sums over a level, of any vertices' values.

@@ -64,7 +64,7 @@ struct HoldMatrix {
       const int column = sliding.place(A.column(s));
       if ((row < 0 && column < 0) || !A.is_stored(a, s)) continue;
       const int at = A.place(s);
-      Mat3<double> M;  // as it is stored: from the left of the lower vertex
+      Mat3<double> M;  // rows are of the lower vertex, as in the matrix's memory
       for (int k = 0; k < 9; ++k) M[k % 3][k / 3] = static_cast<double>(A.value(at, k));
       if (s == own) {
         M = held_own_block(sliding, row, M);

@@ -46,7 +46,7 @@ void HimStepper<B>::plan(StepperSetup<B>& setup) {
 
 template <class B>
 void HimStepper<B>::take(const Hierarchy<B>& h, std::vector<HimParts<B>>&& parts, bool contact) {
-  n_ = h[0].model.vertices;
+  n_ = h[0].model.vertices, shared_ = h[0].ranks != nullptr;
   macro_step_ = parts.front().fit.step;
   fields_ = HimFields<B>(n_, contact, h[0].response().records().touching);
   for (HimParts<B>& one : parts) bodies_.emplace_back(h[0], std::move(one), fields_);

@@ -79,6 +79,7 @@ class HimStepper final : public Stepper<B> {
   // level 0 at rest: stable step [s], largest eigenvalue of M^-1 K [1/s^2]
   double explicit_limit_ = 0, eigenvalue_ = 0;
   bool may_repair_ = true;
+  bool shared_ = false;      // whether several ranks share the body
   bool has_momenta_ = true;  // false: the next step finds the momenta of the velocities
   int halvings_ = 0;
   // explicit sub-steps of level 0 in a macro step; 0: steps of the inverse mass instead
@@ -105,6 +106,8 @@ class HimStepper final : public Stepper<B> {
   /// Sets v = A p. With a `count` on the device, only where that is above 0.
   void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v,
               const Count& count = {}) const {
+    // else ranks would send each other what no kernel computes
+    if (shared_ && count.extent(0) > 0 && !(host_values(exec, count)[0] > 0)) return;
     for (const HimBody<B>& body : bodies_) body.answer(exec, p, v, count);
   }
   /// Forgets what the next step would take from the last, except momenta.
