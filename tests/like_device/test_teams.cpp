@@ -82,7 +82,7 @@ TYPED_TEST(Teams, ForceAndTangentOfPatches) {
 TYPED_TEST(Teams, BlocksOfPatches) {
   using B = TypeParam;
   const Body<B> body;
-  const auto [A, pairs] = block_pattern<B>(body.model);
+  const auto [A, pairs] = block_pattern<B>(body.model, body.model.vertices);
   const Blocks9<B> shares("test.shares", static_cast<std::size_t>(pairs.shares));
   const auto work = [&, &A = A, &pairs = pairs] {
     elastic_blocks<B, Material, Material::Tangent>({}, body.model, pairs, body.state.u,
