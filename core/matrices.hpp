@@ -31,9 +31,10 @@ using Fours = Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename 
 /// except in the columns of vertices whose row has its own block alone: their motion is given, or
 /// another rank owns them.
 ///
-/// Other vertices a < b have two blocks, (a, b) and (b, a) = (a, b)^T. Only (a, b) is stored, in row
-/// a. The stored blocks of a row follow each other. First come the transposes of the blocks left of
-/// its own in columns of vertices without a row, then its own block, then the blocks right of it.
+/// Other vertices a < b have two blocks, (a, b) and (b, a) = (a, b)^T. Only (a, b) is stored, in
+/// row a. The stored blocks of a row follow each other. First come the transposes of the blocks
+/// left of its own in columns of vertices without a row, then its own block, then the blocks right
+/// of it.
 ///
 ///   row a    (a, 3)  (a, 7)  (a, a)  (a, b)    value   ... | (a, a) (a, b) | ...
 ///            turned  turned   own              place   of (a, 3): where (3, a) is stored
