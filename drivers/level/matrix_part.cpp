@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <plica/drivers/level/matrix_part.hpp>
 #include <plica/drivers/level/rank_lists.hpp>
+#include <utility>
 
 namespace plica {
 
@@ -34,7 +35,7 @@ HaloRows rows_of_neighbours(const TetMesh& mesh, const std::vector<std::vector<i
                             const RankRanges& ranges, int own, const RankPart& part) {
   const OwnVertices owned = owned_by(ranges, own);
   const LocalNumbers local(part, mesh.vertices.size());
-  ByRank sent(ranges.ranks()), received(ranges.ranks());
+  ByRank sent(ranges.ranks());
   for (std::size_t p = 0; p < runs.size(); ++p)
     for (const int e : runs[p]) {
       const auto& t = mesh.tets[index_of(e)];
@@ -47,16 +48,7 @@ HaloRows rows_of_neighbours(const TetMesh& mesh, const std::vector<std::vector<i
           if (!owned.has(other)) sent.add(ranges.owner(other), local(v));
       }
     }
-  for (std::size_t i = 0; i < part.vertex.size(); ++i)
-    if (part.owner[i] != own) received.add(part.owner[i], static_cast<int>(i));
-  for (int q = 0; q < ranges.ranks(); ++q) {
-    std::vector<int>& its = sent.of(q);
-    std::ranges::sort(its);
-    its.erase(std::ranges::unique(its).begin(), its.end());
-  }
-  HaloRows rows = ByRank::halo(sent, received);
-  rows.before = part.first_owned, rows.own = part.owned();
-  return rows;
+  return rows_of_vertices(std::move(sent), part, own, ranges.ranks());
 }
 
 MatrixPart matrix_part(const TetMesh& mesh, const std::vector<std::vector<int>>& runs,

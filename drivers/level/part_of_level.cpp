@@ -111,7 +111,7 @@ LevelPart nodal_part(const TetMesh& mesh, const RankRanges& ranges, int own) {
   RankPart& part = made.part;
   std::vector<char> is_local(mesh.vertices.size(), 0);
   std::fill(is_local.begin() + first, is_local.begin() + last, 1);
-  ByRank sent(ranges.ranks()), received(ranges.ranks());
+  ByRank sent(ranges.ranks());
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto& t = mesh.tets[e];
     const auto owned = [&](int v) { return v >= first && v < last; };
@@ -127,16 +127,9 @@ LevelPart nodal_part(const TetMesh& mesh, const RankRanges& ranges, int own) {
   list_vertices(part, is_local, ranges, own);
   const LocalNumbers local(part, mesh.vertices.size());
   made.mesh = mesh_of_part(mesh, part, part.tet, local);
-  for (std::size_t i = 0; i < part.vertex.size(); ++i)
-    if (part.owner[i] != own) received.add(part.owner[i], static_cast<int>(i));
-  for (int q = 0; q < ranges.ranks(); ++q) {
-    std::vector<int>& its = sent.of(q);
-    std::ranges::sort(its);
-    its.erase(std::ranges::unique(its).begin(), its.end());
-    for (int& v : its) v = local(v);
-  }
-  made.vertices = ByRank::halo(sent, received);
-  made.vertices.before = part.first_owned, made.vertices.own = part.owned();
+  for (int q = 0; q < ranges.ranks(); ++q)
+    for (int& v : sent.of(q)) v = local(v);
+  made.vertices = rows_of_vertices(std::move(sent), part, own, ranges.ranks());
   return made;
 }
 
@@ -160,9 +153,9 @@ std::vector<std::vector<int>> runs_of_patches(const TetMesh& mesh) {
 LevelPart part_of_level(const TetMesh& mesh, Element element, Ranks& ranks, int block,
                         bool matrix) {
   const auto runs = runs_of_patches(mesh);
-  RankRanges ranges = rank_ranges(mesh, runs, ranks.count(), block);
+  const RankRanges ranges = rank_ranges(mesh, runs, ranks.count(), block);
   LevelPart made = part_of_level(mesh, element, runs, ranges, ranks.own(), matrix);
-  made.ranks = &ranks, made.ranges = std::move(ranges);
+  made.ranks = &ranks;
   return made;
 }
 

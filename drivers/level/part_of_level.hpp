@@ -43,7 +43,6 @@ struct MatrixPart {
 /// Part of a mesh that one rank has, and what it exchanges with others.
 struct LevelPart {
   Ranks* ranks = nullptr;  ///< ranks that share the level; null: it is only a plan
-  RankRanges ranges;       ///< vertices and runs of each of them
   int number = 0;          ///< number of the level, which messages name
   bool nodal = false;      ///< kind of its elements
   RankPart part;           ///< numbers of its vertices and tetrahedra

@@ -78,10 +78,15 @@ inline std::vector<std::vector<int>> exchange_numbers(Ranks& ranks,
   return received;
 }
 
-/// Returns the numbers that each rank has. All ranks call this.
-inline std::vector<std::vector<int>> numbers_of_all(Ranks& ranks, const std::vector<int>& own) {
-  return exchange_numbers(
-      ranks, std::vector<std::vector<int>>(static_cast<std::size_t>(ranks.count()), own));
+/// Returns the values that each rank has, on all of them. All ranks call this.
+template <class T>
+std::vector<std::vector<T>> values_of_all(Ranks& ranks, const std::vector<T>& own) {
+  std::vector<std::vector<T>> all;
+  for (const Bytes& one : ranks.gather(std::as_bytes(std::span(own)))) {
+    all.emplace_back(one.size() / sizeof(T));
+    if (!one.empty()) std::memcpy(all.back().data(), one.data(), one.size());
+  }
+  return all;
 }
 
 /// Local numbers of a part's vertices.
@@ -97,6 +102,23 @@ class LocalNumbers {
  private:
   std::vector<int> of_;
 };
+
+/// Returns the rows of vertices that a rank exchanges: it receives all that it has and does not
+/// own.
+/// @param sent  local vertices that other ranks receive, in any order and more than once
+inline HaloRows rows_of_vertices(ByRank sent, const RankPart& part, int own, int ranks) {
+  ByRank received(ranks);
+  for (std::size_t i = 0; i < part.vertex.size(); ++i)
+    if (part.owner[i] != own) received.add(part.owner[i], static_cast<int>(i));
+  for (int q = 0; q < ranks; ++q) {
+    std::vector<int>& its = sent.of(q);
+    std::ranges::sort(its);
+    its.erase(std::ranges::unique(its).begin(), its.end());
+  }
+  HaloRows rows = ByRank::halo(sent, received);
+  rows.before = part.first_owned, rows.own = part.owned();
+  return rows;
+}
 
 /// Returns some tetrahedra of a mesh, with a part's vertices and their local numbers.
 inline TetMesh mesh_of_part(const TetMesh& mesh, const RankPart& part, const std::vector<int>& tets,

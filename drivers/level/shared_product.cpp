@@ -10,7 +10,7 @@ namespace plica {
 
 template <class B>
 RowsOfAll<B>::RowsOfAll(Ranks& ranks, const std::string& what, int own, int width) : width_(width) {
-  const auto counts = numbers_of_all(ranks, {own});
+  const auto counts = values_of_all(ranks, std::vector{own});
   HaloRows rows;
   rows.own = own;
   int all = 0;
@@ -48,16 +48,20 @@ RowsByRank::RowsByRank(const Ranks& ranks, const RankPart& part, RowMatrix whole
   own = std::move(of_rank[index_of(ranks.own())]);
 }
 
+std::vector<int> RowsByRank::read_by_own() const {
+  std::vector<int> reads;
+  for (const int i : own)
+    for (RowMatrix::InnerIterator entry(matrix, i); entry; ++entry)
+      reads.push_back(static_cast<int>(entry.col()));
+  return reads;
+}
+
 template <class B, class Value>
 SharedProduct<B, Value>::SharedProduct(const RankLevel<B>& level, const std::string& what,
                                        RowMatrix A) {
   Ranks& ranks = *level.ranks;
   const RowsByRank by_rank(ranks, level.part, std::move(A));
-  std::vector<int> reads;
-  for (const int i : by_rank.own)
-    for (RowMatrix::InnerIterator entry(by_rank.matrix, i); entry; ++entry)
-      reads.push_back(static_cast<int>(entry.col()));
-  const ReadVertices read = read_vertices(ranks, level.part, std::move(reads));
+  const ReadVertices read = read_vertices(ranks, level.part, by_rank.read_by_own());
   std::vector<std::vector<std::pair<int, double>>> rows;
   for (const int i : by_rank.own) {
     auto& row = rows.emplace_back();

@@ -47,6 +47,8 @@ struct RowsByRank {
   std::vector<int> place;  ///< [rows] place of each among those of rank 0, of rank 1, ...
 
   RowsByRank(const Ranks& ranks, const RankPart& part, RowMatrix whole);
+  /// Returns the vertices of the whole level that the own rows read, in any order.
+  std::vector<int> read_by_own() const;
 };
 
 /// Product of a matrix with a field of a level that ranks share; each rank has the whole result.

@@ -44,9 +44,7 @@ SharedGalerkin<B>::SharedGalerkin(Ranks& ranks, const RankPart& part, const Host
   // rows of A P that the own rows of P^T A P read
   const int first_own = part.first[index_of(ranks.own())];
   std::vector<char> reads(static_cast<std::size_t>(P.rows()), 0);
-  for (const int i : coarse.own)
-    for (RowMatrix::InnerIterator a(coarse.matrix, i); a; ++a)
-      reads[static_cast<std::size_t>(a.col())] = 1;
+  for (const int a : coarse.read_by_own()) reads[index_of(a)] = 1;
   ByRanks asked = for_each_rank(ranks);
   for (std::size_t a = 0; a < reads.size(); ++a)
     if (const int q = owner_in(part.first, static_cast<int>(a)); reads[a] && q != ranks.own())
@@ -98,9 +96,9 @@ void SharedGalerkin<B>::gather_pattern(Ranks& ranks, const std::vector<int>& fir
   std::vector<int> counts;
   for (std::size_t i = 0; i + 1 < first.size(); ++i) counts.push_back(first[i + 1] - first[i]);
   std::vector<int> begin{0}, columns;  // by rank
-  for (const std::vector<int>& its : numbers_of_all(ranks, counts))
+  for (const std::vector<int>& its : values_of_all(ranks, counts))
     for (const int count : its) begin.push_back(begin.back() + count);
-  for (const std::vector<int>& its : numbers_of_all(ranks, column))
+  for (const std::vector<int>& its : values_of_all(ranks, column))
     columns.insert(columns.end(), its.begin(), its.end());
   std::vector<int> first_of_all{0}, all, place;
   for (const int at : coarse.place) {
@@ -157,11 +155,7 @@ template <class B>
 SharedRestriction<B>::SharedRestriction(Ranks& ranks, const RankPart& part,
                                         const RowsByRank& coarse, const SlotOrder& fine,
                                         const std::vector<int>& vertex) {
-  std::vector<int> reads;
-  for (const int i : coarse.own)
-    for (RowMatrix::InnerIterator a(coarse.matrix, i); a; ++a)
-      reads.push_back(static_cast<int>(a.col()));
-  ReadVertices read = read_vertices(ranks, part, std::move(reads));
+  ReadVertices read = read_vertices(ranks, part, coarse.read_by_own());
   const std::vector<int> order = sort_by_slots(ranks, part, fine.slot, read);
   std::vector<int> place_of(static_cast<std::size_t>(coarse.matrix.cols()), -1);
   for (std::size_t i = 0; i < order.size(); ++i) place_of[index_of(order[i])] = static_cast<int>(i);
@@ -260,7 +254,7 @@ RowNumbers numbers_of_blocks(Ranks& ranks, const RankPart& part, const std::vect
       }
     }
   int before = 0;
-  const ByRanks counts = numbers_of_all(ranks, {own});
+  const ByRanks counts = values_of_all(ranks, std::vector{own});
   for (int q = 0; q < ranks.count(); ++q) {
     if (q < ranks.own()) before += counts[index_of(q)].front();
     made.all += index_of(counts[index_of(q)].front());

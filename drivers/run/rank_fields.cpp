@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <plica/core/row_ranges.hpp>
+#include <plica/drivers/level/rank_lists.hpp>
 #include <plica/drivers/run/rank_fields.hpp>
 #include <span>
 #include <utility>
@@ -10,17 +11,6 @@
 namespace plica {
 
 namespace {
-
-/// Returns what each rank has, on all of them.
-template <class T>
-std::vector<std::vector<T>> each_ranks(Ranks& ranks, const std::vector<T>& own) {
-  std::vector<std::vector<T>> all;
-  for (const Bytes& one : ranks.gather(std::as_bytes(std::span(own)))) {
-    all.emplace_back(one.size() / sizeof(T));
-    if (!one.empty()) std::memcpy(all.back().data(), one.data(), one.size());
-  }
-  return all;
-}
 
 /// Replaces numbers of points by those that `number` has for them. Negative ones stay.
 template <class Number>
@@ -44,12 +34,12 @@ RankFields::LevelItems RankFields::found(RankItems own) const {
   if (!level.own.part) return level;
   std::vector<int> points;
   for (const int p : level.own.owned_points) points.push_back(level.own.points[index_of(p)]);
-  level.points_of = each_ranks(ranks_, points);
+  level.points_of = values_of_all(ranks_, points);
   for (const std::vector<int>& one : level.points_of) level.points += one.size();
   const auto sizes =
-      each_ranks(ranks_, std::vector{static_cast<std::uint64_t>(level.own.part->owned()),
-                                     static_cast<std::uint64_t>(level.own.element_bytes),
-                                     static_cast<std::uint64_t>(level.own.slots)});
+      values_of_all(ranks_, std::vector{static_cast<std::uint64_t>(level.own.part->owned()),
+                                        static_cast<std::uint64_t>(level.own.element_bytes),
+                                        static_cast<std::uint64_t>(level.own.slots)});
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     if (r == index_of(ranks_.own()))
       level.elements_before = level.elements, level.slots_before = level.slots;

@@ -121,4 +121,30 @@ void expect_on_ranks(const Outcome& expected, const Problem& problem, int count,
   EXPECT_TRUE(equal_bits(all.velocities, expected.velocities));
 }
 
+/// Expects that the ranks save the bytes of one process, and that from its state they go on to its
+/// end.
+template <class B>
+void expect_saved_on_ranks(const Problem& problem, const std::vector<int>& counts, int before,
+                           int after) {
+  Simulation<B> one(problem);
+  take_steps(one, before);
+  EXPECT_EQ(one.counters().contains("pressure_updates"), problem.body.pressure == "smoothed");
+  const SavedState saved = one.save();
+  take_steps(one, after);
+  const SavedState end = one.save();
+  for (const int count : counts)
+    BatonRanks(count).run([&](Ranks& ranks) {
+      Simulation<B> first(problem, typename B::Exec(), ranks);
+      take_steps(first, before);
+      const SavedState own = first.save();
+      Simulation<B> second(problem, typename B::Exec(), ranks);
+      second.restore(ranks.own() == 0 ? saved : SavedState{});
+      take_steps(second, after);
+      const SavedState last = second.save();
+      if (ranks.own() > 0) return;
+      EXPECT_TRUE(own.bytes == saved.bytes) << count << " ranks";
+      EXPECT_TRUE(last.bytes == end.bytes) << count << " ranks";
+    });
+}
+
 }  // namespace plica::test

@@ -91,27 +91,10 @@ TYPED_TEST(HimOnRanks, RepairsAlike) {
 }
 
 TYPED_TEST(HimOnRanks, SavesTheBytesOfOneAndGoesOn) {
-  using B = TypeParam;
   for (const bool is_free : {false, true}) {
     Problem problem = him_organ(lump(), "nodal");
     if (is_free) set_free(problem);
-    Simulation<B> one(problem);
-    take_steps(one, 3);
-    const SavedState saved = one.save();
-    take_steps(one, 2);
-    const SavedState end = one.save();
-    BatonRanks(3).run([&](Ranks& ranks) {
-      Simulation<B> first(problem, typename B::Exec(), ranks);
-      take_steps(first, 3);
-      const SavedState own = first.save();
-      Simulation<B> second(problem, typename B::Exec(), ranks);
-      second.restore(ranks.own() == 0 ? saved : SavedState{});
-      take_steps(second, 2);
-      const SavedState last = second.save();
-      if (ranks.own() > 0) return;
-      EXPECT_TRUE(own.bytes == saved.bytes);
-      EXPECT_TRUE(last.bytes == end.bytes);
-    });
+    expect_saved_on_ranks<TypeParam>(problem, {3}, 3, 2);
   }
 }
 

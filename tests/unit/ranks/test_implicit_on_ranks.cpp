@@ -153,27 +153,8 @@ TYPED_TEST(ImplicitOnRanks, HaveTheBitsOfOneInEachMaterial) {
 // What implicit levels carry from step to step: guesses of solutions, changes, accelerations, mixed
 // dilatations, contact.
 TYPED_TEST(ImplicitOnRanks, SaveTheBytesOfOneAndGoOn) {
-  using B = TypeParam;
   const auto check = [](const Problem& problem) {
-    Simulation<B> one(problem);
-    take_steps(one, 2);
-    EXPECT_EQ(one.counters().contains("pressure_updates"), problem.body.pressure == "smoothed");
-    const SavedState saved = one.save();
-    take_steps(one, 1);
-    const SavedState end = one.save();
-    for (const int count : {2, 7})
-      BatonRanks(count).run([&](Ranks& ranks) {
-        Simulation<B> first(problem, typename B::Exec(), ranks);
-        take_steps(first, 2);
-        const SavedState own = first.save();
-        Simulation<B> second(problem, typename B::Exec(), ranks);
-        second.restore(ranks.own() == 0 ? saved : SavedState{});
-        take_steps(second, 1);
-        const SavedState last = second.save();
-        if (ranks.own() > 0) return;
-        EXPECT_TRUE(own.bytes == saved.bytes) << count << " ranks";
-        EXPECT_TRUE(last.bytes == end.bytes) << count << " ranks";
-      });
+    expect_saved_on_ranks<TypeParam>(problem, {2, 7}, 2, 1);
   };
   for (const char* integrator : {"bdf2", "generalized_alpha"})
     for (const char* element : {"linear", "nodal"}) {
