@@ -50,13 +50,6 @@ struct TermWhereTouching {
   }
 };
 
-template <class B, int N, class Term>
-void sum_where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label,
-                        int n, const Term& term, const BlockSums<B>& blocks,
-                        const Doubles<B>& result) {
-  reduce<B, N>(exec, label, n, TermWhereTouching<B, Term>{count.data(), term}, blocks, result);
-}
-
 // ---- of one vertex, point or block ---------------------------------------------------------
 
 // Reads by the constant stride of three numbers; a view's own index takes a multiplication.
